@@ -4,10 +4,11 @@
 #
 # Every file is taken once, without #version and include guards; the macros of shared/gpu.h become what they stand for.
 # Names at file scope get the prefix zvo_, macros ZVO_, in code and in comments: names that are declared at the first
-# column, as the code's style has it. Names that begin so already stay. `#ifdef` of what is listed here is decided.
+# column, as the code's style has it. Names that begin so already stay. `#ifdef` of what is listed here is decided, and
+# so is `#if defined(A) && defined(B)` if one of both is undefined.
 cmake_minimum_required(VERSION 3.25)
 set(decided_defined TRAVERSE_VARIABLES)
-set(decided_undefined __cplusplus TRAVERSE_PATHS TRAVERSE_ENTRIES)
+set(decided_undefined __cplusplus BOUND TRAVERSE_PATHS TRAVERSE_ENTRIES FACES_BINDING STATES_BINDING)
 set(decided ${decided_defined} ${decided_undefined})
 
 # Lists of lines must not hold what CMake's lists are made with. Names are marked by what surrounds them.
@@ -89,8 +90,16 @@ endfunction()
 # skipped.
 function(kind_of_block directive symbol result)
     set(kind kept)
+    string(REGEX MATCHALL "defined[(]${word}" all_defined "${symbol}")
+    list(TRANSFORM all_defined REPLACE "^defined[(]" "")
     if(directive STREQUAL "ifndef" AND symbol MATCHES "^ZVO_SHADERS_")
         set(kind guard)
+    elseif(directive STREQUAL "if" AND all_defined)
+        foreach(one IN LISTS all_defined)
+            if(one IN_LIST decided_undefined)
+                set(kind skipped)
+            endif()
+        endforeach()
     elseif(symbol IN_LIST decided)
         set(is_defined FALSE)
         if(symbol IN_LIST decided_defined)
@@ -128,14 +137,18 @@ function(bundle file)
             kind_of_block(${CMAKE_MATCH_1} "${CMAKE_MATCH_2}" block)
             list(APPEND blocks ${block})
             string(COMPARE EQUAL ${block} kept is_kept)
-        elseif(line MATCHES "^#(else|elif|endif)")
+        elseif(line MATCHES "^#(else|elif|endif) *(.*)$")
             set(directive ${CMAKE_MATCH_1})
+            set(symbol "${CMAKE_MATCH_2}")
             list(POP_BACK blocks block)
             string(COMPARE EQUAL ${block} kept is_kept)
             if(block STREQUAL "taken")
                 set(block skipped)
             elseif(block STREQUAL "skipped")
                 set(block taken)
+                if(directive STREQUAL "elif")
+                    kind_of_block(if "${symbol}" block)
+                endif()
             endif()
             if(NOT directive STREQUAL "endif")
                 list(APPEND blocks ${block})

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "common/camera.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace host
@@ -54,6 +55,13 @@ zvo::DMat4 reversedViewProjection(const zvo::CameraInfo& camera, double aspect, 
     matrix[14] = near;
     setRow(matrix, 3, forward, camera.position);
     return matrix;
+}
+
+zvo::Mat4 narrowed(const zvo::DMat4& matrix)
+{
+    zvo::Mat4 result{};
+    std::ranges::transform(matrix, result.begin(), [](double value) { return static_cast<float>(value); });
+    return result;
 }
 
 } // namespace host

@@ -10,4 +10,7 @@ namespace host
 /// near plane and 0 infinitely far away. What a maths library gives.
 zvo::DMat4 reversedViewProjection(const zvo::CameraInfo& camera, double aspect, double near);
 
+/// A matrix in single precision.
+zvo::Mat4 narrowed(const zvo::DMat4& matrix);
+
 } // namespace host

@@ -126,6 +126,56 @@ Mesh ring(const std::array<float, 3>& center, float radius, float thickness, con
                          });
 }
 
+Mesh box(const std::array<float, 3>& low, const std::array<float, 3>& high, const std::array<std::uint8_t, 4>& color)
+{
+    Mesh mesh;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+        for (const bool is_high : {false, true})
+        {
+            const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
+            for (std::size_t corner = 0; corner < 4; ++corner)
+            {
+                Vertex vertex{low, {0, 0, 0}, color};
+                vertex.normal[axis] = is_high ? 1.0F : -1.0F;
+                const std::array<bool, 3> takes_high = {is_high, corner % 2 != 0, corner / 2 != 0};
+                for (std::size_t i = 0; i < 3; ++i)
+                {
+                    const std::size_t at = (axis + i) % 3;
+                    vertex.position[at] = takes_high[i] ? high[at] : low[at];
+                }
+                mesh.vertices.push_back(vertex);
+            }
+            mesh.triangles.push_back({first, first + 1, first + 2});
+            mesh.triangles.push_back({first + 1, first + 3, first + 2});
+        }
+    }
+    return mesh;
+}
+
+Mesh room()
+{
+    constexpr float kOut = 1.0625F; // outside of the walls
+    constexpr std::array<std::uint8_t, 4> kWhite = {220, 220, 220, 255};
+    Mesh mesh;
+    const auto add = [&](const Mesh& part)
+    {
+        const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
+        mesh.vertices.insert(mesh.vertices.end(), part.vertices.begin(), part.vertices.end());
+        for (const auto& [a, b, c] : part.triangles)
+        {
+            mesh.triangles.push_back({first + a, first + b, first + c});
+        }
+    };
+    add(box({-kOut, -kOut, -kOut}, {kOut, -1, 1}, kWhite));
+    add(box({-kOut, 1, -kOut}, {kOut, kOut, 1}, kWhite));
+    add(box({-kOut, -1, -kOut}, {kOut, 1, -1}, kWhite));
+    add(box({-kOut, -1, -1}, {-1, 1, 1}, {210, 50, 40, 255}));
+    add(box({1, -1, -1}, {kOut, 1, 1}, {60, 180, 70, 255}));
+    add(box({-0.65F, -1, -0.7F}, {-0.05F, 0.2F, -0.15F}, kWhite));
+    return mesh;
+}
+
 void writePly(const Mesh& mesh, const std::filesystem::path& path)
 {
     std::vector<char> bytes;
@@ -174,6 +224,22 @@ zvo::MeshInfo ZvoMesh::info() const
     info.colors = m_colors;
     info.triangles = m_triangles;
     return info;
+}
+
+ZvoModel::ZvoModel(std::initializer_list<Part> parts, float emission_scale)
+{
+    m_parts.reserve(parts.size()); // so that they stay where they are
+    for (const Part& part : parts)
+    {
+        m_parts.emplace_back(part.mesh);
+        m_meshes.push_back(m_parts.back().info());
+        m_meshes.back().material = static_cast<std::uint32_t>(m_materials.size());
+        m_materials.emplace_back();
+        m_materials.back().emission = part.emission;
+    }
+    m_info.meshes = m_meshes;
+    m_info.materials = m_materials;
+    m_info.emission_scale = emission_scale;
 }
 
 } // namespace host

@@ -10,6 +10,8 @@ namespace host
 namespace
 {
 
+constexpr VkShaderStageFlags kStages = VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT;
+
 VkPipelineShaderStageCreateInfo makeStage(const Device& device, VkShaderStageFlagBits stage,
                                           std::span<const std::uint32_t> words)
 {
@@ -25,13 +27,13 @@ VkPipelineShaderStageCreateInfo makeStage(const Device& device, VkShaderStageFla
     return result;
 }
 
-VkRenderingAttachmentInfo attachment(const Image& image, VkImageLayout layout)
+VkRenderingAttachmentInfo attachment(const Image& image, VkImageLayout layout, VkAttachmentLoadOp load)
 {
     VkRenderingAttachmentInfo info{};
     info.sType = VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO;
     info.imageView = image.view();
     info.imageLayout = layout;
-    info.loadOp = VK_ATTACHMENT_LOAD_OP_LOAD; // zvo's picture, zvo's depth
+    info.loadOp = load;
     info.storeOp = VK_ATTACHMENT_STORE_OP_STORE;
     return info;
 }
@@ -39,7 +41,7 @@ VkRenderingAttachmentInfo attachment(const Image& image, VkImageLayout layout)
 } // namespace
 
 MeshPass::MeshPass(const Device& device, const Mesh& mesh, std::span<const std::uint32_t> vertex_shader,
-                   std::span<const std::uint32_t> fragment_shader, VkFormat color_format)
+                   std::span<const std::uint32_t> fragment_shader, VkFormat color_format, std::uint32_t push_bytes)
     : m_device(device),
       m_vertices(device, mesh.vertices.size() * sizeof(mesh.vertices[0]), VK_BUFFER_USAGE_VERTEX_BUFFER_BIT),
       m_indices(device, mesh.triangles.size() * sizeof(mesh.triangles[0]), VK_BUFFER_USAGE_INDEX_BUFFER_BIT),
@@ -47,7 +49,7 @@ MeshPass::MeshPass(const Device& device, const Mesh& mesh, std::span<const std::
 {
     std::memcpy(m_vertices.mapped(), mesh.vertices.data(), mesh.vertices.size() * sizeof(mesh.vertices[0]));
     std::memcpy(m_indices.mapped(), mesh.triangles.data(), mesh.triangles.size() * sizeof(mesh.triangles[0]));
-    const VkPushConstantRange push = {VK_SHADER_STAGE_VERTEX_BIT, 0, sizeof(std::array<float, 16>)};
+    const VkPushConstantRange push = {kStages, 0, push_bytes};
     VkPipelineLayoutCreateInfo layout{};
     layout.sType = VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO;
     layout.pushConstantRangeCount = 1;
@@ -138,11 +140,11 @@ MeshPass::~MeshPass()
 }
 
 void MeshPass::draw(VkCommandBuffer commands, const Image& color, const Image& depth, VkExtent2D size,
-                    const std::array<float, 16>& to_clip) const
+                    std::span<const std::byte> push, VkAttachmentLoadOp load) const
 {
     const Functions& fn = m_device.fn();
-    const VkRenderingAttachmentInfo color_attachment = attachment(color, kColor.layout);
-    const VkRenderingAttachmentInfo depth_attachment = attachment(depth, kDepth.layout);
+    const VkRenderingAttachmentInfo color_attachment = attachment(color, kColor.layout, load);
+    const VkRenderingAttachmentInfo depth_attachment = attachment(depth, kDepth.layout, load);
     const VkRect2D area = {{0, 0}, size};
     const VkViewport viewport = {0, 0, static_cast<float>(size.width), static_cast<float>(size.height), 0, 1};
     VkRenderingInfo info{};
@@ -156,7 +158,7 @@ void MeshPass::draw(VkCommandBuffer commands, const Image& color, const Image& d
     fn.vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, m_pipeline);
     fn.vkCmdSetViewport(commands, 0, 1, &viewport);
     fn.vkCmdSetScissor(commands, 0, 1, &area);
-    fn.vkCmdPushConstants(commands, m_layout, VK_SHADER_STAGE_VERTEX_BIT, 0, sizeof(to_clip), to_clip.data());
+    fn.vkCmdPushConstants(commands, m_layout, kStages, 0, static_cast<std::uint32_t>(push.size()), push.data());
     const VkBuffer vertices = m_vertices.handle();
     const VkDeviceSize offset = 0;
     fn.vkCmdBindVertexBuffers(commands, 0, 1, &vertices, &offset);

@@ -4,7 +4,7 @@
 #include "common/host.h"
 #include "common/mesh.h"
 
-#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <span>
 
@@ -15,16 +15,16 @@ namespace host
 class MeshPass
 {
 public:
-    /// Shaders: SPIR-V; push constants are a matrix from world to clip space, columns.
+    /// Shaders: SPIR-V; both have the same push constants.
     MeshPass(const Device& device, const Mesh& mesh, std::span<const std::uint32_t> vertex_shader,
-             std::span<const std::uint32_t> fragment_shader, VkFormat color_format);
+             std::span<const std::uint32_t> fragment_shader, VkFormat color_format, std::uint32_t push_bytes);
     ~MeshPass();
     MeshPass(const MeshPass&) = delete;
     MeshPass& operator=(const MeshPass&) = delete;
 
-    /// Records a rendering into color and depth (D32_SFLOAT) that keeps what is there.
+    /// Records a rendering into color and depth (D32_SFLOAT). load: keeps what is there, or clears both to 0.
     void draw(VkCommandBuffer commands, const Image& color, const Image& depth, VkExtent2D size,
-              const std::array<float, 16>& to_clip) const;
+              std::span<const std::byte> push, VkAttachmentLoadOp load = VK_ATTACHMENT_LOAD_OP_LOAD) const;
 
     /// What it does to these images.
     static constexpr Edge kColor = {VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT,

@@ -60,11 +60,17 @@ zvo::ContextInfo Start::contextInfo() const
 zvo::Tree buildTree(const Device& device, zvo::Context& context, const Mesh& mesh, std::uint32_t depth,
                     std::uint64_t& frame, bool keep_sums)
 {
-    VkCommandBuffer commands = device.makeCommands();
     const ZvoMesh arrays(mesh);
     const zvo::MeshInfo mesh_info = arrays.info();
     zvo::ModelInfo model_info;
     model_info.meshes = {&mesh_info, 1};
+    return buildTree(device, context, model_info, depth, frame, keep_sums);
+}
+
+zvo::Tree buildTree(const Device& device, zvo::Context& context, const zvo::ModelInfo& model_info, std::uint32_t depth,
+                    std::uint64_t& frame, bool keep_sums)
+{
+    VkCommandBuffer commands = device.makeCommands();
     std::optional<zvo::Model> model;
     std::optional<zvo::TreeBuild> build;
     for (bool has_more = true; has_more;)

@@ -41,4 +41,8 @@ private:
 zvo::Tree buildTree(const Device& device, zvo::Context& context, const Mesh& mesh, std::uint32_t depth,
                     std::uint64_t& frame, bool keep_sums = false);
 
+/// The same for a model.
+zvo::Tree buildTree(const Device& device, zvo::Context& context, const zvo::ModelInfo& model_info, std::uint32_t depth,
+                    std::uint64_t& frame, bool keep_sums = false);
+
 } // namespace host

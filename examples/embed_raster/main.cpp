@@ -13,7 +13,6 @@
 #include "embed_raster/mesh.frag.h"
 #include "embed_raster/mesh.vert.h"
 
-#include <algorithm>
 #include <numbers>
 
 namespace
@@ -47,7 +46,7 @@ void embed(const host::Options& options)
     const host::Image depth(device, kDepthFormat, kSize,
                             VK_IMAGE_USAGE_TRANSFER_DST_BIT | VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT);
     const host::Mesh ring = host::ring({0, 0, 0}, 0.75F, 0.125F, {255, 0, 255, 255});
-    const host::MeshPass mesh_pass(device, ring, kMeshVert, kMeshFrag, kColorFormat);
+    const host::MeshPass mesh_pass(device, ring, kMeshVert, kMeshFrag, kColorFormat, sizeof(zvo::Mat4));
 
     // One camera, told in two ways. zvo makes its rays of CameraInfo; depth is what this very matrix makes of the
     // points that they hit, in double precision. Reversed depth keeps its precision far away: a miss is infinitely far,
@@ -58,9 +57,7 @@ void embed(const host::Options& options)
     depth_target.view_projection =
         host::reversedViewProjection(camera, static_cast<double>(kSize.width) / kSize.height, kNear);
     depth_target.miss = 0;
-    std::array<float, 16> to_clip{};
-    std::ranges::transform(depth_target.view_projection, to_clip.begin(),
-                           [](double value) { return static_cast<float>(value); });
+    const zvo::Mat4 to_clip = host::narrowed(depth_target.view_projection);
 
     zvo::Tracer tracer(context, kSize.width, kSize.height, kColorFormat);
     VkCommandBuffer commands = device.makeCommands();
@@ -74,7 +71,7 @@ void embed(const host::Options& options)
     // From zvo's copies to the mesh's attachments: the images' other edges.
     color.barrier(commands, kZvoWrites, host::MeshPass::kColor);
     depth.barrier(commands, kZvoWrites, host::MeshPass::kDepth);
-    mesh_pass.draw(commands, color, depth, kSize, to_clip);
+    mesh_pass.draw(commands, color, depth, kSize, std::as_bytes(std::span(to_clip)));
     color.barrier(commands, host::MeshPass::kColor, host::Image::kRead);
     color.readBack(commands);
     device.submitAndWait(commands);

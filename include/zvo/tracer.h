@@ -15,6 +15,8 @@
 namespace zvo
 {
 
+class KeptLight; // zvo/kept_light.h
+
 /// The position and direction of a picture's view, in world space. Pixels are square.
 struct CameraInfo
 {
@@ -58,6 +60,13 @@ struct PathInfo
     float exposure = 1.0F;          // factor
     std::uint32_t samples = 1;      // paths of each pixel that a call adds, 1 to 1024
     std::uint32_t history_max = 16; // denoise: samples of earlier pictures that count at most in a pixel; 0: none
+};
+
+/// Options of a picture of kept light.
+struct KeptPictureInfo
+{
+    bool automatic_exposure = true; // as PathInfo's
+    float exposure = 1.0F;
 };
 
 /// A depth image beside a picture, in the host's own projection, so that the host can composite voxels with what it
@@ -127,6 +136,23 @@ public:
                     const PathInfo& info, const ImageTarget& color);
     void tracePaths(Recorder& recorder, DynamicTree& tree, Environment& environment, const CameraInfo& camera,
                     const PathInfo& info, const ImageTarget& color);
+
+    /// Records the passes that show the light that is kept on voxels, and the copy of the picture to the host's image:
+    /// the camera's rays, the light where they hit, lamps and what is outside, as `zvo render --integrator cached`
+    /// shows them. tree, environment: those of the last KeptLight::update(), which comes before, unchanged since. The
+    /// camera may be another one, and the picture larger than the rays that the light has: faces that these have not
+    /// found are black.
+    ///
+    /// Stages, barriers and what images need: as trace(). Memory, from the first call on: at most 20 bytes a pixel.
+    /// Cost: pixels.
+    ///
+    /// Throws Error{Usage} as trace() does for images and cameras, for an exposure that is negative or not finite, for
+    /// an environment that was lost, and where update() has not come before; then nothing is recorded. Throws
+    /// Error{Memory}, and what making a kernel throws; then no image is written.
+    void traceKept(Recorder& recorder, const Tree& tree, Environment& environment, KeptLight& light,
+                   const CameraInfo& camera, const KeptPictureInfo& info, const ImageTarget& color);
+    void traceKept(Recorder& recorder, DynamicTree& tree, Environment& environment, KeptLight& light,
+                   const CameraInfo& camera, const KeptPictureInfo& info, const ImageTarget& color);
 
     /// Samples of each pixel in the picture that tracePaths() has recorded last; 0: none, or the call failed, or its
     /// frame was lost.

@@ -42,6 +42,7 @@ typedef struct ZvoTreeCompression ZvoTreeCompression;
 typedef struct ZvoDynamicTree ZvoDynamicTree;
 typedef struct ZvoEnvironment ZvoEnvironment;
 typedef struct ZvoTracer ZvoTracer;
+typedef struct ZvoKeptLight ZvoKeptLight;
 
 // Enumerations. Their types are integers of a fixed size, so that every value is one that can be refused.
 
@@ -796,3 +797,79 @@ ZVO_C_API ZvoResult zvoCameraLookAt(const double eye[3], const double target[3],
                                     ZvoCameraInfo* camera);
 ZVO_C_API ZvoResult zvoCameraRays(const ZvoCameraInfo* camera, const ZvoGrid* grid, uint32_t height,
                                   ZvoCameraRays* rays);
+
+// zvo::KeptLight.
+
+/// As zvo::KeptLightInfo.
+typedef struct ZvoKeptLightInfo
+{
+    size_t struct_size;
+    uint64_t faces;
+    uint32_t width;
+    uint32_t height;
+} ZvoKeptLightInfo;
+
+#define ZVO_KEPT_LIGHT_INFO_INIT                                                                                       \
+    {                                                                                                                  \
+        sizeof(ZvoKeptLightInfo), 0, 160, 90                                                                           \
+    }
+
+/// As zvo::KeptFrameInfo.
+typedef struct ZvoKeptFrameInfo
+{
+    size_t struct_size;
+    uint32_t rays;
+    uint32_t seed;
+} ZvoKeptFrameInfo;
+
+#define ZVO_KEPT_FRAME_INFO_INIT                                                                                       \
+    {                                                                                                                  \
+        sizeof(ZvoKeptFrameInfo), 32768, 0                                                                             \
+    }
+
+/// As zvo::KeptLightStats.
+typedef struct ZvoKeptLightStats
+{
+    size_t struct_size;
+    uint64_t faces;
+    uint64_t refused;
+} ZvoKeptLightStats;
+
+#define ZVO_KEPT_LIGHT_STATS_INIT                                                                                      \
+    {                                                                                                                  \
+        sizeof(ZvoKeptLightStats), 0, 0                                                                                \
+    }
+
+ZVO_C_API ZvoResult zvoKeptLightCreate(ZvoContext* context, const ZvoKeptLightInfo* info, ZvoKeptLight** light);
+ZVO_C_API void zvoKeptLightDestroy(ZvoKeptLight* light);
+ZVO_C_API ZvoResult zvoKeptLightUpdate(ZvoKeptLight* light, ZvoRecorder* recorder, const ZvoTree* tree,
+                                       ZvoEnvironment* environment, const ZvoCameraInfo* camera,
+                                       const ZvoKeptFrameInfo* info);
+ZVO_C_API ZvoResult zvoKeptLightUpdateDynamic(ZvoKeptLight* light, ZvoRecorder* recorder, ZvoDynamicTree* tree,
+                                              ZvoEnvironment* environment, const ZvoCameraInfo* camera,
+                                              const ZvoKeptFrameInfo* info);
+ZVO_C_API ZvoResult zvoKeptLightAddress(const ZvoKeptLight* light, uint64_t* address);
+ZVO_C_API ZvoResult zvoKeptLightForget(ZvoKeptLight* light);
+ZVO_C_API ZvoResult zvoKeptLightStats(ZvoKeptLight* light, ZvoKeptLightStats* stats);
+ZVO_C_API ZvoResult zvoKeptLightBytes(const ZvoKeptLight* light, uint64_t* bytes);
+
+/// As zvo::KeptPictureInfo.
+typedef struct ZvoKeptPictureInfo
+{
+    size_t struct_size;
+    VkBool32 automatic_exposure;
+    float exposure;
+} ZvoKeptPictureInfo;
+
+#define ZVO_KEPT_PICTURE_INFO_INIT                                                                                     \
+    {                                                                                                                  \
+        sizeof(ZvoKeptPictureInfo), VK_TRUE, 1                                                                         \
+    }
+
+ZVO_C_API ZvoResult zvoTracerTraceKept(ZvoTracer* tracer, ZvoRecorder* recorder, const ZvoTree* tree,
+                                       ZvoEnvironment* environment, ZvoKeptLight* light, const ZvoCameraInfo* camera,
+                                       const ZvoKeptPictureInfo* info, const ZvoImageTarget* color);
+ZVO_C_API ZvoResult zvoTracerTraceKeptDynamic(ZvoTracer* tracer, ZvoRecorder* recorder, ZvoDynamicTree* tree,
+                                              ZvoEnvironment* environment, ZvoKeptLight* light,
+                                              const ZvoCameraInfo* camera, const ZvoKeptPictureInfo* info,
+                                              const ZvoImageTarget* color);

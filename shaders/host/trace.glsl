@@ -21,6 +21,13 @@
 // What zvo_Hit says: zvo_isHit(hit), zvo_isUnfinished(hit), hit.t, zvo_hitCell(hit), zvo_hitLevel(hit),
 // zvo_hitFace(hit): the axis, or zvo_kFaceInside.
 //
+// Light that is kept on the voxels (zvo::KeptLight), a zvo_KeptLightTable_ConstPtr by its address, as trees:
+//   vec4 zvo_irradiance(light, tree, position, normal)                light that arrives at a surface, without a ray
+//   vec4 zvo_keptRadiance(light, tree, hit, origin, direction)        light that comes from where a ray has hit
+//   vec4 zvo_gatherIrradiance(light, tree, position, normal, rays, seed)     light that arrives, by rays
+//   vec3 zvo_outside(light, direction)                                light from outside of the grid
+//   float zvo_occlusion(tree, position, normal, rays, reach, seed)    the share of rays that meet nothing
+//
 // Unit space, in which the root's cube is [1, 2)^3: nothing is rounded on the way to the traversal. Hits are those of
 // zvo's own kernels, bit for bit, and hits of theirs may be given to the functions above.
 //   zvo_Ray zvo_unitRay(origin, direction, t_min, t_max)              both in unit space
@@ -339,5 +346,7 @@ float zvo_depth(mat4 view_projection, vec3 position)
     vec4 clip = view_projection * vec4(position, 1.0);
     return clip.z / clip.w;
 }
+
+#include "host/kept_light.glsl"
 
 #endif

@@ -18,26 +18,16 @@
 #ifndef ZVO_SHADERS_LIGHT_ENVIRONMENT_H
 #define ZVO_SHADERS_LIGHT_ENVIRONMENT_H
 
-#include "shared/gpu.h"
+#include "light/outside.h"
 
 GPU_NAMESPACE_BEGIN
 
-const uint kNormals = 6u;             // +x, +y, +z, -x, -y, -z
 const uint kAliasGroup = 64u;         // threads of a workgroup
 const uint kAliasItems = 16u;         // cells that a thread takes where sums are made
 const uint kAliasBlock = 1024u;       // cells of a workgroup there
 const uint kAliasCellsMax = 1u << 19; // so that sums have 64 bits
 const uint kWeightBits = 24u;
 const float kSmallestFloat = 1.17549435e-38f; // normal
-
-/// A cell in the table of a normal.
-struct AliasCell
-{
-    uint threshold;    // 2^32 times the part of the cell's choices that it keeps
-    uint alias;        // gets the others
-    float probability; // of being chosen
-};
-GPU_BUFFER(AliasCell, 4);
 
 /// What the tables of the normals are made of.
 struct AliasTotals
@@ -67,30 +57,6 @@ struct AliasItem
     uint unused;
 };
 GPU_BUFFER(AliasItem, 8);
-
-/// Which cells a map has, and where it stands.
-struct EnvironmentMap
-{
-    uint width;
-    uint height;
-    uint cells_x;
-    uint cells_y;
-    vec2 turn; // cosine and sine of the angle by which the map is turned about y, counterclockwise from above
-};
-
-/// All light from outside of the grid, as kernels find it.
-struct Environment
-{
-    GPU_CONST_PTR(vec3) texels;     // [width * height]
-    GPU_CONST_PTR(AliasCell) cells; // [kNormals][cells]
-    GPU_CONST_PTR(vec2) gives;      // [kNormals] luminance over which a face gets of the map, and of the sun, at most
-    EnvironmentMap map;
-    float strength;   // of the map: its texels count times this
-    vec3 to_sun;      // to the middle of the sun's disc, length 1
-    vec3 sun;         // radiance of the disc
-    float sun_height; // 1 - cosine of the angle from the middle of the disc to its rim
-};
-GPU_BUFFER(Environment, 8);
 
 struct EnvironmentGivesParams // push constants of light/environment_gives: a thread a normal
 {

@@ -42,25 +42,11 @@
 #define ZVO_SHADERS_RADIANCE_RADIANCE_H
 
 #include "path/path.h"
+#include "radiance/kept_faces.h"
 
 GPU_NAMESPACE_BEGIN
 
 const uint kRadianceGroup = 64u; // threads of a workgroup
-
-/// A face, or the faces of a brick, with the light that is shown.
-///
-///     key    x 18 bits | y 13 of 18, kFaceKeyTag
-///            y 5 of 18 | z 18 | number of the normal 3 (LightBrick::exposed) | level 5 (0: a face), kFaceKeyTag
-///     light  red 16 | green 16
-///            blue 16 | exponent 6 | samples 10, of the face or the brick alone (radiance/kept_light.glsl)
-///
-/// A first word of 0 means that the slot is free; the words of the key are set one after the other (lib/bricks.glsl).
-struct KeptFace
-{
-    uvec2 key;
-    uvec2 light;
-};
-GPU_BUFFER(KeptFace, 16);
 
 /// What else is known of the face in a slot.
 ///
@@ -88,7 +74,6 @@ struct BrickSum
 };
 GPU_BUFFER(BrickSum, 4);
 
-const uint kBrickLevels = 3u; // that are kept
 const uint kSpreadShift = 14u;
 const uint kBrickFaces = 4u; // what means of bricks count in samples, over what those of faces do
 
@@ -97,10 +82,6 @@ const uint kBrickFaces = 4u; // what means of bricks count in samples, over what
 const float kBrickWorth = 128.0;
 const float kBrickGone = 16.0;
 
-const uint kKeptFaceBytes = 16u;
-const uint kFaceKeyTag = 1u << 31; // in both words of a key
-const uint kFaceRun = 8u;          // slots that faces of 2x2x2 cells with the same normal share as their first ones
-const uint kFaceProbesMax = 128u;  // slots looked at before the table counts as full
 const uint kKeptWeightMax = 1023u;
 const uint kRecentSamples = 16u; // that FaceState::recent counts
 

@@ -308,6 +308,21 @@ DepthTarget ofC(const ZvoDepthTarget& target)
     return {ofC(readStruct(target.image, "ZvoDepthTarget::image")), arrayOf(target.view_projection), target.miss};
 }
 
+KeptLightInfo ofC(const ZvoKeptLightInfo& info)
+{
+    return {info.width, info.height, info.faces};
+}
+
+KeptFrameInfo ofC(const ZvoKeptFrameInfo& info)
+{
+    return {info.rays, info.seed};
+}
+
+KeptPictureInfo ofC(const ZvoKeptPictureInfo& info)
+{
+    return {info.automatic_exposure != VK_FALSE, info.exposure};
+}
+
 ZvoDeviceInfo toC(const DeviceReport& report)
 {
     auto result = initial<ZvoDeviceInfo>();
@@ -410,6 +425,11 @@ ZvoCameraRays toC(const CameraRays& rays)
     copyTo(result.half_pixel_x, rays.half_pixel_x);
     copyTo(result.half_pixel_y, rays.half_pixel_y);
     return result;
+}
+
+ZvoKeptLightStats toC(const KeptLightStats& stats)
+{
+    return {sizeof(ZvoKeptLightStats), stats.faces, stats.refused};
 }
 
 } // namespace zvo

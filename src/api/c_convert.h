@@ -52,6 +52,9 @@ TraceInfo ofC(const ZvoTraceInfo& info);
 PathInfo ofC(const ZvoPathInfo& info);
 ImageTarget ofC(const ZvoImageTarget& target);
 DepthTarget ofC(const ZvoDepthTarget& target);
+KeptLightInfo ofC(const ZvoKeptLightInfo& info);
+KeptFrameInfo ofC(const ZvoKeptFrameInfo& info);
+KeptPictureInfo ofC(const ZvoKeptPictureInfo& info);
 
 ZvoDeviceInfo toC(const DeviceReport& report); // texts are the report's
 ZvoMemoryUse toC(const MemoryUse& use);
@@ -62,5 +65,6 @@ ZvoUpdateStats toC(const UpdateStats& info);
 ZvoDroppedTriangles toC(const std::map<std::string, std::uint64_t>& dropped);
 ZvoCameraInfo toC(const CameraInfo& info);
 ZvoCameraRays toC(const CameraRays& rays);
+ZvoKeptLightStats toC(const KeptLightStats& stats);
 
 } // namespace zvo

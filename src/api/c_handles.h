@@ -70,3 +70,8 @@ struct ZvoTracer
 {
     zvo::Tracer object;
 };
+
+struct ZvoKeptLight
+{
+    zvo::KeptLight object;
+};

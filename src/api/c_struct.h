@@ -50,6 +50,10 @@ ZVO_C_STRUCT(ZvoTraceInfo, reserved, ZVO_TRACE_INFO_INIT);
 ZVO_C_STRUCT(ZvoPathInfo, history_max, ZVO_PATH_INFO_INIT);
 ZVO_C_STRUCT(ZvoImageTarget, extent, ZVO_IMAGE_TARGET_INIT);
 ZVO_C_STRUCT(ZvoDepthTarget, reserved, ZVO_DEPTH_TARGET_INIT);
+ZVO_C_STRUCT(ZvoKeptLightInfo, height, ZVO_KEPT_LIGHT_INFO_INIT);
+ZVO_C_STRUCT(ZvoKeptFrameInfo, seed, ZVO_KEPT_FRAME_INFO_INIT);
+ZVO_C_STRUCT(ZvoKeptPictureInfo, exposure, ZVO_KEPT_PICTURE_INFO_INIT);
+ZVO_C_STRUCT(ZvoKeptLightStats, refused, ZVO_KEPT_LIGHT_STATS_INIT);
 
 #undef ZVO_C_STRUCT
 

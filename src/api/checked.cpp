@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "api/checked.h"
 
+#include "api/camera.h"
 #include "api/convert.h"
 #include "core/path/path_tracer.h"
+#include "core/radiance/radiance_cache.h"
 #include "core/trace/trace.h"
 
 #include <fmt/format.h>
@@ -24,6 +26,8 @@ constexpr std::uint32_t kMapEdgeMax = 16384;
 constexpr std::uint64_t kMapTexelsMax = std::uint64_t{1} << 25;
 
 constexpr std::uint32_t kSamplesMax = 1024; // of a call, so that a command buffer stays of a sensible size
+
+constexpr std::uint64_t kKeptFacesMax = std::uint64_t{1} << 31; // their slots have numbers of 32 bits
 
 // The irradiance over pi of a sun whose radiance is far below the largest float.
 constexpr double kSunMax = 1e30;
@@ -190,6 +194,31 @@ const PathInfo& checked(const PathInfo& info)
     checkedAmount(info.exposure, "PathInfo::exposure");
     requireOne(info.samples, "PathInfo::samples");
     requireAtMost(info.samples, kSamplesMax, "PathInfo::samples");
+    return info;
+}
+
+const KeptPictureInfo& checked(const KeptPictureInfo& info)
+{
+    checkedAmount(info.exposure, "KeptPictureInfo::exposure");
+    return info;
+}
+
+const KeptLightInfo& checked(const KeptLightInfo& info)
+{
+    checkedEdge(info.width);
+    checkedEdge(info.height);
+    if (info.faces > kKeptFacesMax)
+    {
+        throw Error(ErrorCode::Usage,
+                    fmt::format("KeptLightInfo::faces is {}: it must be at most {}", info.faces, kKeptFacesMax));
+    }
+    return info;
+}
+
+const KeptFrameInfo& checked(const KeptFrameInfo& info)
+{
+    requireOne(info.rays, "KeptFrameInfo::rays");
+    requireAtMost(info.rays, kRadianceFacesMax, "KeptFrameInfo::rays");
     return info;
 }
 

@@ -6,6 +6,7 @@
 #include "core/base/grid.h"
 #include "zvo/dynamic_tree.h"
 #include "zvo/error.h"
+#include "zvo/kept_light.h"
 #include "zvo/light.h"
 #include "zvo/tracer.h"
 #include "zvo/tree.h"
@@ -47,7 +48,10 @@ const DynamicTreeInfo& checked(const DynamicTreeInfo& info);
 const BrushInfo& checked(const BrushInfo& info);
 const TraceInfo& checked(const TraceInfo& info);
 const PathInfo& checked(const PathInfo& info);
+const KeptPictureInfo& checked(const KeptPictureInfo& info);
 const SunInfo& checked(const SunInfo& info);
+const KeptLightInfo& checked(const KeptLightInfo& info);
+const KeptFrameInfo& checked(const KeptFrameInfo& info);
 
 /// Looks at every texel.
 const EnvironmentMapInfo& checked(const EnvironmentMapInfo& map);

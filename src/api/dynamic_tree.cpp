@@ -193,8 +193,8 @@ bool DynamicTree::edit(Recorder& recorder, const BrushInfo& info)
     brush.center = {info.center[0], info.center[1], info.center[2]};
     brush.radius = info.radius;
     brush.color = info.color;
-    return usable(*this).change(recorder, [&](DynamicOctree& octree, vk::FrameGraph& graph)
-                                { return octree.edit(graph, brush); });
+    return usable(*this).changeEdits(recorder, [&](DynamicOctree& octree, vk::FrameGraph& graph)
+                                     { return octree.edit(graph, brush); });
 }
 
 void DynamicTree::endStroke()
@@ -204,14 +204,14 @@ void DynamicTree::endStroke()
 
 bool DynamicTree::undoEdit(Recorder& recorder)
 {
-    return usable(*this).change(recorder,
-                                [](DynamicOctree& octree, vk::FrameGraph& graph) { return octree.undoEdit(graph); });
+    return usable(*this).changeEdits(recorder, [](DynamicOctree& octree, vk::FrameGraph& graph)
+                                     { return octree.undoEdit(graph); });
 }
 
 bool DynamicTree::redoEdit(Recorder& recorder)
 {
-    return usable(*this).change(recorder,
-                                [](DynamicOctree& octree, vk::FrameGraph& graph) { return octree.redoEdit(graph); });
+    return usable(*this).changeEdits(recorder, [](DynamicOctree& octree, vk::FrameGraph& graph)
+                                     { return octree.redoEdit(graph); });
 }
 
 std::vector<UpdateStats> DynamicTree::takeUpdates()

@@ -48,6 +48,14 @@ struct ZVO_LOCAL DynamicTree::Impl
                          });
     }
 
+    /// The same for what brushes change.
+    template <typename Change> bool changeEdits(Recorder& recorder, const Change& record)
+    {
+        const bool is_changed = change(recorder, record);
+        edit_count += is_changed ? 1 : 0;
+        return is_changed;
+    }
+
     void publish(vk::FrameGraph& graph);
 
     // A frame that is not known to be done, and the octree's number for it.
@@ -72,6 +80,7 @@ struct ZVO_LOCAL DynamicTree::Impl
     std::shared_ptr<FrameState> made_in; // the frame in which the tree was made; null: known to be done
     std::vector<NewObject> new_objects;
     std::vector<UpdateStats> updates;
+    std::uint64_t edit_count = 0; // dabs, and strokes that went back or forth
 };
 
 /// Throws Error{Usage} for a dynamic tree that was lost with its frame, or moved from.

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "zvo/tracer.h"
 
+#include "api/camera.h"
 #include "api/checked.h"
 #include "api/convert.h"
 #include "api/dynamic_tree_impl.h"
 #include "api/environment_impl.h"
+#include "api/kept_light_impl.h"
 #include "api/tree_impl.h"
 #include "core/denoise/denoiser.h"
 #include "core/path/path_tracer.h"
@@ -15,9 +17,6 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
-#include <cstring>
-#include <numbers>
 #include <optional>
 
 namespace zvo
@@ -25,46 +24,6 @@ namespace zvo
 
 namespace
 {
-
-constexpr std::uint32_t kEdgeMax = 16384; // pixels
-
-// A direction with a larger vertical component counts as vertical.
-constexpr double kVertical = 0.999999;
-
-// Least sine of the angle between forward and up. Below it, rounding would decide the camera's up direction.
-constexpr double kSlantMin = 1e-9;
-
-std::uint32_t checkedEdge(std::uint32_t edge)
-{
-    if (edge == 0 || edge > kEdgeMax)
-    {
-        throw Error(ErrorCode::Usage, fmt::format("a picture has edges from 1 to {} pixels, not {}", kEdgeMax, edge));
-    }
-    return edge;
-}
-
-ViewCamera viewOf(const CameraInfo& info)
-{
-    ViewCamera view;
-    view.position = toGlm(info.position);
-    view.forward = glm::normalize(toGlm(info.forward));
-    view.right = glm::normalize(glm::cross(view.forward, toGlm(info.up)));
-    view.up = glm::cross(view.right, view.forward);
-    view.orthographic = info.orthographic;
-    view.vertical_fov = info.vertical_fov;
-    view.half_height = info.half_height;
-    const double slant = glm::length(glm::cross(view.forward, glm::normalize(toGlm(info.up))));
-    const double size = info.orthographic ? info.half_height : info.vertical_fov;
-    const double size_max = info.orthographic ? INFINITY : std::numbers::pi;
-    const double sum = glm::dot(view.position, glm::dvec3(1)) + glm::dot(view.right + view.up, glm::dvec3(1));
-    if (!std::isfinite(sum) || !(slant > kSlantMin) || !(size > 0 && size < size_max))
-    {
-        throw Error(ErrorCode::Usage,
-                    "a camera needs a position, a direction, an up that is not parallel to it, and a field of view "
-                    "inside (0, pi) or a half height above 0, all of them finite");
-    }
-    return view;
-}
 
 TraceOptions optionsOf(const TraceInfo& info)
 {
@@ -102,11 +61,6 @@ void requireImage(const ImageTarget& target, const char* name)
     }
 }
 
-Vec3 arrayOf(const gpu::vec3& v)
-{
-    return {v.x, v.y, v.z};
-}
-
 // The samples of tracePaths(), and what makes pictures of them.
 struct PathPicture
 {
@@ -130,6 +84,18 @@ struct PathPicture
     std::uint32_t sample_count = 0;              // of the picture that it has recorded; 0: none
 };
 
+// What makes pictures of kept light.
+struct KeptPicture
+{
+    KeptPicture(Context::Impl& context, std::uint64_t pixel_count)
+        : sums(context.device, "kept picture", pixel_count), developer(context.device)
+    {
+    }
+
+    vk::BufferOf<gpu::PixelSum> sums;
+    Developer developer;
+};
+
 } // namespace
 
 struct ZVO_LOCAL Tracer::Impl
@@ -146,6 +112,7 @@ struct ZVO_LOCAL Tracer::Impl
         context.deleteLater(std::move(tracer));
         context.deleteLater(std::move(depths));
         context.deleteLater(std::move(paths));
+        context.deleteLater(std::move(kept));
     }
 
     Impl(const Impl&) = delete;
@@ -220,6 +187,37 @@ struct ZVO_LOCAL Tracer::Impl
                   });
     }
 
+    void traceKept(Recorder& recorder, const DeviceTree& tree, Environment::Impl& environment, KeptLight::Impl& light,
+                   const CameraInfo& camera_info, const KeptPictureInfo& info, const ImageTarget& color)
+    {
+        const TraceBuffers& buffers = tracer->buffers();
+        requireColor(color);
+        const TraceCamera camera = traceCamera(viewOf(camera_info), tree.grid, buffers.height);
+        const Exposure exposure = {checked(info).automatic_exposure, info.exposure};
+        light.requireShown(tree);
+        recording(recorder,
+                  [&](Recorder::Impl& impl)
+                  {
+                      if (kept == nullptr)
+                      {
+                          kept = std::make_unique<KeptPicture>(context, primaryRayCount(buffers));
+                      }
+                      if (frame && frame->is_lost)
+                      {
+                          tracer->forget();
+                      }
+                      frame = impl.frame;
+                      environment.enter(impl.frame);
+                      environment.light.prepare(impl.graph);
+                      tracer->tracePrimary(impl.graph, tree, camera, {});
+                      impl.graph.fill(kept->sums, 0);
+                      light.cache->view(impl.graph, tree, environment.light, camera, buffers, kept->sums);
+                      const SampledPicture shown = {kept->sums, buffers.width, buffers.height, 1};
+                      kept->developer.develop(impl.graph, shown, buffers.texels, exposure, tracer->image());
+                      copyToImage(impl.graph, buffers, color);
+                  });
+    }
+
     void makePaths()
     {
         if (paths == nullptr)
@@ -253,24 +251,11 @@ struct ZVO_LOCAL Tracer::Impl
 
     Context::Impl& context;
     std::unique_ptr<TreeTracer> tracer;
-    std::shared_ptr<FrameState> frame = nullptr;  // of the last picture of trace()
+    std::shared_ptr<FrameState> frame = nullptr;  // of the last picture of trace() or traceKept()
     vk::BufferOf<float> depths = {};              // empty until depth is requested
     std::unique_ptr<PathPicture> paths = nullptr; // null until paths are requested
+    std::unique_ptr<KeptPicture> kept = nullptr;  // likewise of kept light
 };
-
-CameraInfo CameraInfo::lookAt(const DVec3& eye, const DVec3& target, double vertical_fov)
-{
-    CameraInfo info;
-    info.position = eye;
-    info.vertical_fov = vertical_fov;
-    for (std::size_t axis = 0; axis < 3; ++axis)
-    {
-        info.forward[axis] = target[axis] - eye[axis];
-    }
-    const bool vertical = std::abs(glm::normalize(toGlm(info.forward)).y) > kVertical;
-    info.up = vertical ? DVec3{0, 0, 1} : DVec3{0, 1, 0};
-    return info;
-}
 
 Tracer::Tracer(Context& context, std::uint32_t width, std::uint32_t height, VkFormat format)
     : m_impl(std::make_unique<Impl>(context.impl(), width, height, format))
@@ -325,6 +310,34 @@ void Tracer::tracePaths(Recorder& recorder, DynamicTree& tree, Environment& envi
     tracer.tracePaths(recorder, impl.octree->tree(), light, camera, info, color);
 }
 
+void Tracer::traceKept(Recorder& recorder, const Tree& tree, Environment& environment, KeptLight& light,
+                       const CameraInfo& camera, const KeptPictureInfo& info, const ImageTarget& color)
+{
+    Impl& tracer = contentOf(m_impl.get(), "tracer");
+    const Tree::Impl& impl = usable(tree);
+    Environment::Impl& outside = usable(environment);
+    KeptLight::Impl& kept = usable(light);
+    requireSame(tracer.context, impl.context);
+    requireSame(tracer.context, outside.context);
+    requireSame(tracer.context, kept.context);
+    requireSame(tracer.context, recorder.impl().context);
+    tracer.traceKept(recorder, impl.fixed, outside, kept, camera, info, color);
+}
+
+void Tracer::traceKept(Recorder& recorder, DynamicTree& tree, Environment& environment, KeptLight& light,
+                       const CameraInfo& camera, const KeptPictureInfo& info, const ImageTarget& color)
+{
+    Impl& tracer = contentOf(m_impl.get(), "tracer");
+    DynamicTree::Impl& impl = usable(tree);
+    Environment::Impl& outside = usable(environment);
+    KeptLight::Impl& kept = usable(light);
+    requireSame(tracer.context, impl.context);
+    requireSame(tracer.context, outside.context);
+    requireSame(tracer.context, kept.context);
+    impl.enter(recorder.impl());
+    tracer.traceKept(recorder, impl.octree->tree(), outside, kept, camera, info, color);
+}
+
 std::uint32_t Tracer::sampleCount() const
 {
     const PathPicture* const paths = contentOf(m_impl.get(), "tracer").paths.get();
@@ -337,12 +350,6 @@ void Tracer::forgetSamples()
     {
         paths->forget();
     }
-}
-
-CameraRays cameraRays(const CameraInfo& camera, const GridInfo& grid, std::uint32_t height)
-{
-    const gpu::CameraRays rays = traceCamera(viewOf(camera), checkedGrid(grid), checkedEdge(height)).rays;
-    return {arrayOf(rays.origin), arrayOf(rays.forward), arrayOf(rays.half_pixel_x), arrayOf(rays.half_pixel_y)};
 }
 
 } // namespace zvo

@@ -398,6 +398,83 @@ TEST(CApi, FeaturesArePatchedOrWhatStandsInTheWayIsSaid)
     EXPECT_EQ(context, nullptr);
 }
 
+TEST(CApi, KeptLightIsThatOfTheCppInterface)
+{
+    test::CEmbeddingHost host;
+    ZvoModel* const model = host.uploadBox();
+    ZvoTreeBuildInfo build_info = ZVO_TREE_BUILD_INFO_INIT;
+    build_info.grid = {{-2, -2, -2}, 1, 4};
+    ZvoTree* tree = host.build(model, build_info);
+    ZvoEnvironment* environment = nullptr;
+    ZvoCameraInfo camera = ZVO_CAMERA_INFO_INIT;
+    const double eye[3] = {22, 17, 25};
+    const double target[3] = {5, 5, 5};
+    ASSERT_EQ(zvoCameraLookAt(eye, target, 0.6, &camera), ZVO_OK);
+    ZvoKeptLightInfo info = ZVO_KEPT_LIGHT_INFO_INIT;
+    info.width = 40;
+    info.height = 30;
+    ZvoKeptLight* light = nullptr;
+    ASSERT_EQ(zvoKeptLightCreate(host.context, &info, &light), ZVO_OK);
+    ZvoKeptFrameInfo frame = ZVO_KEPT_FRAME_INFO_INIT;
+    const auto faceCount = [&]
+    {
+        ZvoKeptLightStats stats = ZVO_KEPT_LIGHT_STATS_INIT;
+        EXPECT_EQ(zvoKeptLightStats(light, &stats), ZVO_OK);
+        return stats.faces;
+    };
+    host.frame(
+        [&](ZvoRecorder* recorder)
+        {
+            EXPECT_EQ(zvoEnvironmentCreate(recorder, nullptr, &environment), ZVO_OK);
+            EXPECT_EQ(zvoKeptLightUpdate(light, recorder, tree, environment, &camera, &frame), ZVO_OK);
+            frame.rays = 0;
+            EXPECT_EQ(zvoKeptLightUpdate(light, recorder, tree, environment, &camera, &frame), ZVO_ERROR_USAGE);
+            frame.rays = 1000;
+        });
+    const std::uint64_t still = faceCount();
+    EXPECT_GT(still, 20U);
+    std::uint64_t address = 0;
+    std::uint64_t same_address = 0;
+    std::uint64_t bytes = 0;
+    EXPECT_EQ(zvoKeptLightAddress(light, &address), ZVO_OK);
+    EXPECT_NE(address, 0U);
+    EXPECT_EQ(zvoKeptLightBytes(light, &bytes), ZVO_OK);
+    EXPECT_GT(bytes, 36 * still);
+    EXPECT_EQ(zvoKeptLightForget(light), ZVO_OK);
+    ZvoDynamicTree* dynamic = nullptr;
+    const ZvoDynamicTreeInfo dynamic_info = ZVO_DYNAMIC_TREE_INFO_INIT;
+    host.frame(
+        [&](ZvoRecorder* recorder)
+        {
+            EXPECT_EQ(zvoDynamicTreeCreate(recorder, tree, &dynamic_info, &dynamic), ZVO_OK);
+            EXPECT_EQ(zvoKeptLightUpdateDynamic(light, recorder, dynamic, environment, &camera, &frame), ZVO_OK);
+        });
+    EXPECT_EQ(faceCount(), still) << "the same faces of the same voxels";
+    ZvoTracer* tracer = nullptr;
+    const ZvoKeptPictureInfo picture = ZVO_KEPT_PICTURE_INFO_INIT;
+    const ZvoImageTarget color = host.target();
+    ASSERT_EQ(zvoTracerCreate(host.context, host.kWidth, host.kHeight, VK_FORMAT_R8G8B8A8_UNORM, &tracer), ZVO_OK);
+    host.frame(
+        [&](ZvoRecorder* recorder)
+        {
+            EXPECT_EQ(zvoKeptLightUpdateDynamic(light, recorder, dynamic, environment, &camera, &frame), ZVO_OK);
+            EXPECT_EQ(
+                zvoTracerTraceKeptDynamic(tracer, recorder, dynamic, environment, light, &camera, &picture, &color),
+                ZVO_OK);
+            EXPECT_EQ(zvoKeptLightForget(light), ZVO_OK);
+            EXPECT_EQ(
+                zvoTracerTraceKeptDynamic(tracer, recorder, dynamic, environment, light, &camera, &picture, &color),
+                ZVO_ERROR_USAGE);
+        });
+    zvoTracerDestroy(tracer);
+    EXPECT_EQ(zvoKeptLightAddress(light, &same_address), ZVO_OK);
+    EXPECT_EQ(same_address, address);
+    zvoKeptLightDestroy(light);
+    zvoDynamicTreeDestroy(dynamic);
+    zvoEnvironmentDestroy(environment);
+    zvoModelDestroy(model);
+}
+
 TEST(CApi, TheVersionIsThatOfTheHeader)
 {
     EXPECT_EQ(zvoVersion(), ZVO_VERSION);

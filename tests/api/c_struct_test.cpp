@@ -59,7 +59,8 @@ using Structs =
     testing::Types<ZvoOptionalFeatures, ZvoDeviceInfo, ZvoContextInfo, ZvoMemoryUse, ZvoPassTime, ZvoTextureInfo,
                    ZvoMaterialInfo, ZvoMeshInfo, ZvoInstanceInfo, ZvoModelInfo, ZvoModelStats, ZvoTreeInfo,
                    ZvoTreeBuildInfo, ZvoDroppedTriangles, ZvoDynamicTreeInfo, ZvoBrushInfo, ZvoUpdateStats, ZvoSunInfo,
-                   ZvoEnvironmentMapInfo, ZvoCameraInfo, ZvoTraceInfo, ZvoPathInfo, ZvoImageTarget, ZvoDepthTarget>;
+                   ZvoEnvironmentMapInfo, ZvoCameraInfo, ZvoTraceInfo, ZvoPathInfo, ZvoImageTarget, ZvoDepthTarget,
+                   ZvoKeptLightInfo, ZvoKeptFrameInfo, ZvoKeptLightStats, ZvoKeptPictureInfo>;
 TYPED_TEST_SUITE(CStruct, Structs);
 
 TYPED_TEST(CStruct, MembersThatAnOlderHostDoesNotKnowAreTheDefaults)
@@ -320,6 +321,19 @@ void expectSame(const PathInfo& a, const PathInfo& b)
     EXPECT_EQ(a.history_max, b.history_max);
 }
 
+void expectSame(const KeptLightInfo& a, const KeptLightInfo& b)
+{
+    EXPECT_EQ(a.width, b.width);
+    EXPECT_EQ(a.height, b.height);
+    EXPECT_EQ(a.faces, b.faces);
+}
+
+void expectSame(const KeptFrameInfo& a, const KeptFrameInfo& b)
+{
+    EXPECT_EQ(a.rays, b.rays);
+    EXPECT_EQ(a.seed, b.seed);
+}
+
 void expectSame(const ImageTarget& a, const ImageTarget& b)
 {
     EXPECT_EQ(a.image, b.image);
@@ -374,6 +388,10 @@ TEST(CStructs, DefaultsAreThoseOfTheCppInterface)
     expectSame(ofC(initial<ZvoTraceInfo>()), TraceInfo());
     expectSame(ofC(initial<ZvoPathInfo>()), PathInfo());
     expectSame(ofC(initial<ZvoImageTarget>()), ImageTarget());
+    expectSame(ofC(initial<ZvoKeptLightInfo>()), KeptLightInfo());
+    expectSame(ofC(initial<ZvoKeptFrameInfo>()), KeptFrameInfo());
+    EXPECT_EQ(ofC(initial<ZvoKeptPictureInfo>()).automatic_exposure, KeptPictureInfo().automatic_exposure);
+    EXPECT_EQ(ofC(initial<ZvoKeptPictureInfo>()).exposure, KeptPictureInfo().exposure);
     EXPECT_EQ(ofC(initial<ZvoOptionalFeatures>()).pass_times, OptionalFeatures().pass_times);
     EXPECT_EQ(ofC(initial<ZvoOptionalFeatures>()).subgroup_sizes, OptionalFeatures().subgroup_sizes);
     EXPECT_EQ(ofC(initial<ZvoOptionalFeatures>()).int64_atomics, OptionalFeatures().int64_atomics);
@@ -393,6 +411,27 @@ TEST(CStructs, DefaultsAreThoseOfTheCppInterface)
 template <typename Type> Type handle(std::uintptr_t number)
 {
     return reinterpret_cast<Type>(number);
+}
+
+TEST(CStructs, EveryMemberOfKeptLightIsPassedOn)
+{
+    ZvoKeptLightInfo info = ZVO_KEPT_LIGHT_INFO_INIT;
+    info.faces = std::uint64_t{1} << 30;
+    info.width = 7;
+    info.height = 9;
+    expectSame(ofC(info), {7, 9, std::uint64_t{1} << 30});
+    ZvoKeptFrameInfo frame = ZVO_KEPT_FRAME_INFO_INIT;
+    frame.rays = 5;
+    frame.seed = 6;
+    expectSame(ofC(frame), {5, 6});
+    ZvoKeptPictureInfo picture = ZVO_KEPT_PICTURE_INFO_INIT;
+    picture.automatic_exposure = VK_FALSE;
+    picture.exposure = 2;
+    EXPECT_FALSE(ofC(picture).automatic_exposure);
+    EXPECT_EQ(ofC(picture).exposure, 2.0F);
+    const ZvoKeptLightStats stats = toC(KeptLightStats{3, 4});
+    EXPECT_EQ(stats.faces, 3U);
+    EXPECT_EQ(stats.refused, 4U);
 }
 
 TEST(CStructs, EveryMemberOfADeclarationIsPassedOn)
@@ -679,6 +718,13 @@ TEST(CStructs, PointersThatAreNullAreRefused)
     const ZvoTraceInfo trace_info = ZVO_TRACE_INFO_INIT;
     const ZvoPathInfo path_info = ZVO_PATH_INFO_INIT;
     const ZvoSunInfo sun = ZVO_SUN_INFO_INIT;
+    const ZvoKeptLightInfo kept_info = ZVO_KEPT_LIGHT_INFO_INIT;
+    const ZvoKeptFrameInfo kept_frame = ZVO_KEPT_FRAME_INFO_INIT;
+    const ZvoKeptPictureInfo kept_picture = ZVO_KEPT_PICTURE_INFO_INIT;
+    ZvoKeptLightStats kept_stats = ZVO_KEPT_LIGHT_STATS_INIT;
+    ZvoKeptLight* light = nullptr;
+    ZvoKeptLight* made_light = nullptr;
+    ASSERT_EQ(zvoKeptLightCreate(host.context, &kept_info, &light), ZVO_OK);
     const ZvoImageTarget color = host.target();
     REFUSES_NULLS(zvoQuery, host.info.get_instance_proc_addr, host.info.instance, host.info.physical_device,
                   &made_report);
@@ -719,6 +765,11 @@ TEST(CStructs, PointersThatAreNullAreRefused)
     REFUSES_NULLS(zvoTracerSampleCount, tracer, &count);
     REFUSES_NULLS(zvoTracerForgetSamples, tracer);
     REFUSES_NULLS(zvoEnvironmentSetSun, environment, &sun);
+    REFUSES_NULLS(zvoKeptLightCreate, host.context, &kept_info, &made_light);
+    REFUSES_NULLS(zvoKeptLightAddress, light, &address);
+    REFUSES_NULLS(zvoKeptLightForget, light);
+    REFUSES_NULLS(zvoKeptLightStats, light, &kept_stats);
+    REFUSES_NULLS(zvoKeptLightBytes, light, &address);
     REFUSES_NULLS(zvoCameraLookAt, eye, eye, 0.5, &camera);
     REFUSES_NULLS(zvoCameraRays, &camera, &grid, 8, &rays);
     host.frame(
@@ -741,6 +792,12 @@ TEST(CStructs, PointersThatAreNullAreRefused)
             REFUSES_NULLS(zvoTracerTracePaths, tracer, recorder, tree, environment, &camera, &path_info, &color);
             REFUSES_NULLS(zvoTracerTracePathsDynamic, tracer, recorder, dynamic, environment, &camera, &path_info,
                           &color);
+            REFUSES_NULLS(zvoKeptLightUpdate, light, recorder, tree, environment, &camera, &kept_frame);
+            REFUSES_NULLS(zvoKeptLightUpdateDynamic, light, recorder, dynamic, environment, &camera, &kept_frame);
+            REFUSES_NULLS(zvoTracerTraceKept, tracer, recorder, tree, environment, light, &camera, &kept_picture,
+                          &color);
+            REFUSES_NULLS(zvoTracerTraceKeptDynamic, tracer, recorder, dynamic, environment, light, &camera,
+                          &kept_picture, &color);
             EXPECT_EQ(zvoEnvironmentCreate(nullptr, nullptr, &environment), ZVO_ERROR_USAGE);
             EXPECT_EQ(zvoEnvironmentCreate(recorder, nullptr, nullptr), ZVO_ERROR_USAGE);
             for (int missing = 0; missing < 6; ++missing)
@@ -759,13 +816,15 @@ TEST(CStructs, PointersThatAreNullAreRefused)
                                    static_cast<const void*>(made_recorder), static_cast<const void*>(made_model),
                                    static_cast<const void*>(made_tree), static_cast<const void*>(made_build),
                                    static_cast<const void*>(made_compression), static_cast<const void*>(made_dynamic),
-                                   static_cast<const void*>(made_tracer)})
+                                   static_cast<const void*>(made_tracer), static_cast<const void*>(made_light)})
     {
         EXPECT_EQ(made, nullptr); // a failure leaves its results unchanged
     }
     zvoDeviceReportDestroy(nullptr);
     zvoContextDestroy(nullptr);
     zvoTracerDestroy(tracer);
+    zvoKeptLightDestroy(light);
+    zvoKeptLightDestroy(nullptr);
     zvoEnvironmentDestroy(environment);
     zvoDynamicTreeDestroy(dynamic);
     zvoTreeCompressionDestroy(compression);

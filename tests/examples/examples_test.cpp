@@ -13,6 +13,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
@@ -265,6 +266,57 @@ TEST_F(Examples, TheNearerOfMeshAndVoxelIsSeen)
     EXPECT_EQ(ppm("bare.ppm"), picture);
 }
 
+// Mean linear light of a part of a picture, from low up to, but without, high.
+std::array<double, 3> lightOf(const Picture& picture, const std::array<std::size_t, 2>& low,
+                              const std::array<std::size_t, 2>& high)
+{
+    std::array<double, 3> sum{};
+    for (std::size_t y = low[1]; y < high[1]; ++y)
+    {
+        for (std::size_t x = low[0]; x < high[0]; ++x)
+        {
+            for (std::size_t channel = 0; channel < 3; ++channel)
+            {
+                sum.at(channel) += std::pow(picture.rgb[y * Picture::kWidth + x].at(channel) / 255.0, 2.2);
+            }
+        }
+    }
+    const auto count = static_cast<double>((high[0] - low[0]) * (high[1] - low[1]));
+    return {sum[0] / count, sum[1] / count, sum[2] / count};
+}
+
+// Light of a lamp and of coloured walls, on meshes that the host draws.
+TEST_F(Examples, MeshesAreLitByWhatVoxelsKeep)
+{
+    run("embed_gi", {"before.ppm", "after.ppm"});
+    const Picture before = ppm("before.ppm");
+    const Picture after = ppm("after.ppm");
+    const auto behind_ring_before = lightOf(before, {232, 85}, {246, 95}); // on the green wall
+    const auto behind_ring_after = lightOf(after, {232, 85}, {246, 95});
+    EXPECT_LT(behind_ring_before[1], 0.6 * behind_ring_after[1]) << "the ring's shadow has moved away";
+    const auto below_ring_before = lightOf(before, {170, 175}, {200, 185}); // on the floor
+    const auto below_ring_after = lightOf(after, {170, 175}, {200, 185});
+    EXPECT_LT(below_ring_after[1], 0.9 * below_ring_before[1]) << "and falls there";
+    const auto ceiling_left = lightOf(before, {80, 14}, {95, 18});
+    const auto ceiling_right = lightOf(before, {215, 14}, {230, 18});
+    EXPECT_GT(ceiling_left[0] / ceiling_left[1], 1.1 * ceiling_right[0] / ceiling_right[1])
+        << "red light of a red wall";
+    for (const Picture* picture : {&before, &after})
+    {
+        for (std::size_t y = 40; y < 150; ++y)
+        {
+            for (std::size_t x = 112; x < 216; ++x)
+            {
+                const Picture::Rgb& rgb = picture->rgb[y * Picture::kWidth + x];
+                EXPECT_GT(int{rgb[0]} + rgb[1] + rgb[2], 60) << "black at " << x << ", " << y;
+            }
+        }
+    }
+    run("embed_gi", {"before_bare.ppm", "after_bare.ppm", "--no-optional"});
+    EXPECT_EQ(ppm("before_bare.ppm"), before);
+    EXPECT_EQ(ppm("after_bare.ppm"), after);
+}
+
 // The rules that the examples promise to their readers.
 TEST(ExampleSources, AreShortAndSeePublicHeadersOnly)
 {
@@ -295,7 +347,7 @@ TEST(ExampleSources, AreShortAndSeePublicHeadersOnly)
             ++example_count;
         }
     }
-    EXPECT_EQ(example_count, 6U);
+    EXPECT_EQ(example_count, 7U);
 }
 
 } // namespace

@@ -236,9 +236,10 @@ TEST(HostGlslNames, ExamplesInTheDocumentationCompile)
 {
     const std::string text = readText(std::filesystem::path(ZVO_DOCS_DIR) / "host-glsl.md");
     const std::vector<std::string> examples = matches(text, std::regex("\n```glsl\n([^`]*)```"));
-    ASSERT_EQ(examples.size(), 2U);
+    ASSERT_EQ(examples.size(), 3U);
     EXPECT_EQ(compile(examples[0], "comp"), "");
     EXPECT_EQ(compile(examples[1], "frag"), "");
+    EXPECT_EQ(compile(examples[2], "frag"), "");
 }
 
 TEST(HostGlslNames, OneFileIsAllThatIsIncluded)

@@ -1,15 +1,13 @@
 // SPDX-License-Identifier: MIT
 // Kernels of a host that trace with zvo/trace.glsl (tests/glsl) give the same results as zvo's own kernels.
-#include "core/base/kernels.h"
 #include "core/dynamic/dynamic_octree.h"
 #include "core/headless/attribute_packer.h"
 #include "core/trace/trace_passes.h"
 #include "core/tree/tree_table.h"
-#include "glsl/host_kernels.h"
+#include "glsl/host_device.h"
 #include "oracle/morton.h"
 #include "oracle/trace.h"
 #include "support/dags.h"
-#include "support/device.h"
 #include "support/dynamic_updates.h"
 #include "support/pictures.h"
 #include "support/scenes.h"
@@ -34,6 +32,8 @@ namespace zvo
 {
 namespace
 {
+
+using test::deviceOfHosts;
 
 constexpr std::uint32_t kWidth = 53;
 constexpr std::uint32_t kHeight = 41;
@@ -115,25 +115,9 @@ struct StepsPush
     gpu::uint padding = 0;
 };
 
-std::span<const vk::EmbeddedKernel> allKernels()
-{
-    static const std::vector<vk::EmbeddedKernel> kernels = []
-    {
-        std::vector<vk::EmbeddedKernel> all(zvoKernels().begin(), zvoKernels().end());
-        all.insert(all.end(), hostKernels().begin(), hostKernels().end());
-        return all;
-    }();
-    return kernels;
-}
-
-vk::HeadlessDevice& device()
-{
-    return test::sharedDevice(allKernels());
-}
-
 vk::BufferOf<gpu::TreeTable> tableOf(const DeviceTree& tree)
 {
-    return device().makeBuffer<gpu::TreeTable>("tree table", std::vector{treeTable(tree)});
+    return deviceOfHosts().makeBuffer<gpu::TreeTable>("tree table", std::vector{treeTable(tree)});
 }
 
 // Declares the buffers that the pass reads through the table.
@@ -155,9 +139,9 @@ std::vector<Pixel> hostPicture(const DeviceTree& tree, const char* kernel, const
                                const Frame& frame)
 {
     const vk::BufferOf<gpu::TreeTable> table = tableOf(tree);
-    const vk::BufferOf<Frame> frames = device().makeBuffer<Frame>("frame", std::vector{frame});
-    vk::BufferOf<Pixel> pixels(device().device(), "pixels", std::uint64_t{kWidth} * kHeight);
-    device().run(
+    const vk::BufferOf<Frame> frames = deviceOfHosts().makeBuffer<Frame>("frame", std::vector{frame});
+    vk::BufferOf<Pixel> pixels(deviceOfHosts().device(), "pixels", std::uint64_t{kWidth} * kHeight);
+    deviceOfHosts().run(
         [&](vk::FrameGraph& graph)
         {
             vk::UntypedPass pass = graph.addPass(kernel, constants);
@@ -165,7 +149,7 @@ std::vector<Pixel> hostPicture(const DeviceTree& tree, const char* kernel, const
             const PicturePush push = {pass.read(table), pass.read(frames), pass.write(pixels)};
             pass.dispatch(pixels.count(), push);
         });
-    return device().download(pixels);
+    return deviceOfHosts().download(pixels);
 }
 
 // A matrix with reversed depth for the camera of view: 1 at kNear, 0 at infinity.
@@ -184,7 +168,7 @@ class Emission
 {
 public:
     explicit Emission(const DeviceTree& octree)
-        : m_words(device().download(octree.emission_words)), m_values(device().download(octree.emission)),
+        : m_words(deviceOfHosts().download(octree.emission_words)), m_values(deviceOfHosts().download(octree.emission)),
           m_scale(octree.emission_scale)
     {
     }
@@ -288,7 +272,7 @@ private:
     [[nodiscard]] test::Picture take(TraceOptions options, View view) const
     {
         options.view = view;
-        return test::takePicture(device(), m_tree, m_camera, kWidth, kHeight, options);
+        return test::takePicture(deviceOfHosts(), m_tree, m_camera, kWidth, kHeight, options);
     }
 
     void expectSamePixel(const Pixel& pixel, std::size_t i) const
@@ -373,12 +357,12 @@ constexpr std::array kFormats = {AttributeFormat::None, AttributeFormat::Bytes4,
 
 DeviceTree octreeWith(const CodeSet& set, AttributeFormat format)
 {
-    DeviceTree octree = test::octreeOf(device(), set.codes, set.depth);
+    DeviceTree octree = test::octreeOf(deviceOfHosts(), set.codes, set.depth);
     if (format != AttributeFormat::None)
     {
-        test::addAttributes(device(), octree);
+        test::addAttributes(deviceOfHosts(), octree);
         octree.emission_scale = 3.5F;
-        packTree(device(), format, octree);
+        packTree(deviceOfHosts(), format, octree);
     }
     return octree;
 }
@@ -387,8 +371,8 @@ DeviceTree dagWith(const CodeSet& set, AttributeFormat format, std::uint32_t ent
 {
     const DeviceTree octree =
         octreeWith(set, format == AttributeFormat::None ? AttributeFormat::None : AttributeFormat::Bytes8);
-    DeviceTree dag = test::svdagOf(device(), octree, entries_per_word);
-    packTree(device(), format, dag);
+    DeviceTree dag = test::svdagOf(deviceOfHosts(), octree, entries_per_word);
+    packTree(deviceOfHosts(), format, dag);
     return dag;
 }
 
@@ -533,20 +517,20 @@ TEST_P(HostGlslOverlays, AreSeen)
     options.merge = MergeRule::DynamicWins;
     options.attributes = attributes;
     options.emission_scale = 3.5F;
-    DynamicOctree octree(device(), compressed ? dagWith(set, format) : octreeWith(set, format), options);
+    DynamicOctree octree(deviceOfHosts(), compressed ? dagWith(set, format) : octreeWith(set, format), options);
     const float edge = std::ldexp(1.0F, static_cast<int>(depth));
     const Scene box = test::boxScene(glm::vec3(0.0F), glm::vec3(std::min(0.4F * edge, 30.0F)));
-    octree.add(uploadDynamicMesh(device(), box, attributes, options.emission_scale),
+    octree.add(uploadDynamicMesh(deviceOfHosts(), box, attributes, options.emission_scale),
                {{glm::translate(glm::mat4(1.0F), glm::vec3(0.3F * edge))}, {}, {}});
     const glm::ivec3 dab(static_cast<int>(0.7F * edge));
     const Brush brush = {BrushShape::Sphere, BrushAction::Fill, dab, 3, 0x2060C0};
     for (bool is_done = false; !is_done;)
     {
         const std::uint64_t frame = octree.beginFrame();
-        device().run([&](vk::FrameGraph& graph) { is_done = octree.edit(graph, brush); });
+        deviceOfHosts().run([&](vk::FrameGraph& graph) { is_done = octree.edit(graph, brush); });
         octree.frameDone(frame);
     }
-    test::updateAll(device(), octree);
+    test::updateAll(deviceOfHosts(), octree);
     ASSERT_TRUE(octree.tree().hasOverlays());
     ASSERT_EQ(octree.tree().isDag(), compressed);
     const glm::dvec3 near = glm::dvec3(dab) + glm::dvec3(12.0, 9.0, 15.0);
@@ -568,8 +552,8 @@ TEST_P(HostGlslOverlays, AreSeen)
 TEST(HostGlsl, AnEmptyTreeIsMissed)
 {
     const CodeSet empty = {4, {}};
-    const DeviceTree octree = test::octreeOf(device(), empty.codes, empty.depth);
-    const DeviceTree dag = test::svdagOf(device(), octree);
+    const DeviceTree octree = test::octreeOf(deviceOfHosts(), empty.codes, empty.depth);
+    const DeviceTree dag = test::svdagOf(deviceOfHosts(), octree);
     for (const DeviceTree* shown : std::array<const DeviceTree*, 2>{&octree, &dag})
     {
         const DeviceTree& tree = *shown;
@@ -608,9 +592,9 @@ std::vector<WorldRay> worldRays(const Grid& grid, const test::Codes& codes, std:
 std::vector<Met> meet(const DeviceTree& tree, const std::vector<WorldRay>& rays, float detail)
 {
     const vk::BufferOf<gpu::TreeTable> table = tableOf(tree);
-    const vk::BufferOf<WorldRay> ray_buffer = device().makeBuffer("rays", std::span<const WorldRay>(rays));
-    vk::BufferOf<Met> results(device().device(), "results", rays.size());
-    device().run(
+    const vk::BufferOf<WorldRay> ray_buffer = deviceOfHosts().makeBuffer("rays", std::span<const WorldRay>(rays));
+    vk::BufferOf<Met> results(deviceOfHosts().device(), "results", rays.size());
+    deviceOfHosts().run(
         [&](vk::FrameGraph& graph)
         {
             vk::UntypedPass pass = graph.addPass("host/rays");
@@ -619,7 +603,7 @@ std::vector<Met> meet(const DeviceTree& tree, const std::vector<WorldRay>& rays,
                                    static_cast<gpu::uint>(rays.size()), detail};
             pass.dispatch(rays.size(), push);
         });
-    return device().download(results);
+    return deviceOfHosts().download(results);
 }
 
 // The ray in unit space, rounded as in shaders.
@@ -643,10 +627,10 @@ TEST(HostGlsl, WorldRaysHitWhatEveryVoxelAskedOnItsOwnSays)
             blocks.push_back(code >> 6);
         }
         blocks.erase(std::unique(blocks.begin(), blocks.end()), blocks.end());
-        DeviceTree octree = test::octreeOf(device(), codes, depth);
+        DeviceTree octree = test::octreeOf(deviceOfHosts(), codes, depth);
         octree.grid.origin = {-3.7F, 12.25F, 0.3F};
         octree.grid.voxel_size = 0.37F;
-        const DeviceTree dag = test::svdagOf(device(), octree);
+        const DeviceTree dag = test::svdagOf(deviceOfHosts(), octree);
         const Grid& grid = octree.grid;
         const oracle::VoxelTracer tracer(codes, depth);
         const oracle::VoxelTracer block_tracer(blocks, depth - 2);
@@ -736,9 +720,9 @@ TEST(HostGlsl, UnfinishedRaysResumeInTwoTreesAtOnce)
         rays.push_back(test::deviceRay(test::pickRay(random, dag.grid.rootResolution(), deep.codes)));
     }
     const std::array tables = {tableOf(dag), tableOf(octree)};
-    const vk::BufferOf<gpu::Ray> ray_buffer = device().makeBuffer("rays", std::span<const gpu::Ray>(rays));
-    vk::BufferOf<Both> results(device().device(), "results", rays.size());
-    device().run(
+    const vk::BufferOf<gpu::Ray> ray_buffer = deviceOfHosts().makeBuffer("rays", std::span<const gpu::Ray>(rays));
+    vk::BufferOf<Both> results(deviceOfHosts().device(), "results", rays.size());
+    deviceOfHosts().run(
         [&](vk::FrameGraph& graph)
         {
             vk::UntypedPass pass = graph.addPass("host/steps", {kSteps});
@@ -750,10 +734,10 @@ TEST(HostGlsl, UnfinishedRaysResumeInTwoTreesAtOnce)
                                     static_cast<gpu::uint>(rays.size())};
             pass.dispatch(rays.size(), push);
         });
-    const std::vector<Both> both = device().download(results);
+    const std::vector<Both> both = deviceOfHosts().download(results);
     for (std::size_t k = 0; k < 2; ++k)
     {
-        const std::vector<gpu::Hit> expected = test::traceOnDevice(device(), *trees.at(k), rays);
+        const std::vector<gpu::Hit> expected = test::traceOnDevice(deviceOfHosts(), *trees.at(k), rays);
         std::uint32_t calls_max = 0;
         for (std::size_t i = 0; i < rays.size(); ++i)
         {

@@ -13,8 +13,13 @@ namespace zvo::test
 
 std::map<FaceName, FaceLight> facesOf(RadianceCache& cache, std::uint32_t level)
 {
+    return facesOf(device().download(cache.faces()), level);
+}
+
+std::map<FaceName, FaceLight> facesOf(std::span<const gpu::KeptFace> table, std::uint32_t level)
+{
     std::map<FaceName, FaceLight> faces;
-    for (const gpu::KeptFace& kept : device().download(cache.faces()))
+    for (const gpu::KeptFace& kept : table)
     {
         if (kept.key.x == 0)
         {

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <map>
+#include <span>
 #include <tuple>
 #include <vector>
 
@@ -36,6 +37,7 @@ struct FaceLight
 };
 
 /// All faces of a table, or all bricks of a level, read without the code of the kernels. Cells are those of the level.
+std::map<FaceName, FaceLight> facesOf(std::span<const gpu::KeptFace> table, std::uint32_t level = 0);
 std::map<FaceName, FaceLight> facesOf(RadianceCache& cache, std::uint32_t level = 0);
 
 /// Runs frames of a tracer, which has a size.

@@ -62,6 +62,9 @@ public:
     /// Declares that pass reads all of it.
     [[nodiscard]] gpu::ConstPtr<gpu::Environment> read(vk::AnyPass& pass) const;
 
+    /// [1] what shaders read of it, as prepare() has recorded it.
+    [[nodiscard]] const vk::BufferOf<gpu::Environment>& buffer() const { return m_buffer; }
+
     /// [kNormals] as gpu::Environment::gives in shaders/light/environment.h.
     [[nodiscard]] const vk::BufferOf<gpu::vec2>& gives() const { return m_gives; }
     [[nodiscard]] const vk::BufferOf<gpu::AliasCell>& cells() const { return m_cells; }

@@ -446,6 +446,14 @@ void RadianceCache::view(vk::FrameGraph& graph, const DeviceTree& tree, const De
     const bool emits = hasEmission(tree);
     Frame& buffers = *m_buffers;
     const std::uint64_t pixels = std::uint64_t{seen.width} * seen.height;
+    if (buffers.direct.count() < pixels)
+    {
+        auto old = std::exchange(buffers.direct, vk::BufferOf<gpu::uint>(m_device, "radiance/direct", pixels));
+        if (m_deletion_queue != nullptr)
+        {
+            m_deletion_queue->keep(std::move(old));
+        }
+    }
     graph.fill(buffers.direct_lists, 0);
     {
         vk::Pass pass = graph.addPass(gpu::radiance::View{.node_levels = tree.grid.nodeLevels(),

@@ -60,7 +60,8 @@ public:
                 const TraceCamera& camera, const TraceBuffers& seen, const RadianceOptions& options);
 
     /// Records the passes that add what the camera sees, of the light that is kept and directly, to the radiance of
-    /// sums, [pixels] in the order of shaders/path/path.h. seen: as in update(), of the last one. Cost: pixels.
+    /// sums, [pixels] in the order of shaders/path/path.h. seen: as in update(), of the last one or of another picture
+    /// of the same tree. Throws Error{Memory}, if it is larger. Cost: pixels.
     void view(vk::FrameGraph& graph, const DeviceTree& tree, const DeviceEnvironment& environment,
               const TraceCamera& camera, const TraceBuffers& seen, vk::BufferOf<gpu::PixelSum>& sums);
 

@@ -7,19 +7,12 @@
 namespace zvo
 {
 
-namespace
-{
-
-// Where the rays of a picture's frame go through its pixels, from their middles: evenly over them in any number of
-// frames, and in the middle in the first (M. Roberts, The Unreasonable Effectiveness of Quasirandom Sequences, 2018).
 glm::vec2 pointOfPixel(std::uint32_t frame)
 {
     constexpr glm::dvec2 kSteps = {0.7548776662466927, 0.5698402909980532};
     const glm::dvec2 point = glm::fract(0.5 + static_cast<double>(frame) * kSteps) - 0.5;
     return point;
 }
-
-} // namespace
 
 void RadianceTracer::resize(std::uint32_t width, std::uint32_t height)
 {

@@ -11,6 +11,10 @@
 namespace zvo
 {
 
+/// Where the rays of a frame go through pixels, from their middles: evenly over them in any number of frames, and in
+/// the middle in the first (M. Roberts, The Unreasonable Effectiveness of Quasirandom Sequences, 2018).
+glm::vec2 pointOfPixel(std::uint32_t frame);
+
 /// Pictures of the light that is kept on voxels: a frame traces the camera's rays and brings the light up to date. Owns
 /// all buffers.
 class RadianceTracer

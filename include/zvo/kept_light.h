@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "zvo/context.h"
+#include "zvo/dynamic_tree.h"
+#include "zvo/export.h"
+#include "zvo/light.h"
+#include "zvo/tracer.h"
+#include "zvo/tree.h"
+
+#include <cstdint>
+#include <memory>
+
+namespace zvo
+{
+
+/// What light is kept for.
+struct KeptLightInfo
+{
+    // The rays of a camera that find which faces of voxels it sees, 1 to 16384 along each edge, in the proportion of
+    // the host's picture. They go through other points of their pixels in each frame: a quarter of the picture's edges
+    // suffices.
+    std::uint32_t width = 160;
+    std::uint32_t height = 90;
+
+    std::uint64_t faces = 0; // that there is room for, at most 2^31; 0: 2.5 for each voxel of the first tree
+};
+
+/// Options of a frame.
+struct KeptFrameInfo
+{
+    std::uint32_t rays = 1U << 15; // the most faces that get a sample: a ray and a shadow ray each; 1 to 2^22
+    std::uint32_t seed = 0;        // of the random numbers
+};
+
+/// Counts of kept light, known once a frame is done.
+struct KeptLightStats
+{
+    std::uint64_t faces = 0;   // with light
+    std::uint64_t refused = 0; // faces for which there was no room, each time that a ray has hit them
+};
+
+/// Light that is kept on the faces of voxels and gets better from frame to frame (docs/radiance.md), for the host's own
+/// shaders: zvo/trace.glsl looks it up at any point of a surface, without a ray (docs/host-glsl.md). It follows what
+/// moves, brushes and lamps by itself. All frames in flight may use it. Move-only; throws Error{Usage} when it is used
+/// after it was moved from.
+class ZVO_API KeptLight
+{
+public:
+    /// Memory: 28 bytes for each ray of the camera, and 18 MB. Throws Error{Usage} for numbers out of range, and
+    /// Error{Memory}.
+    explicit KeptLight(Context& context, const KeptLightInfo& info = {});
+    ~KeptLight();
+    KeptLight(KeptLight&&) noexcept;
+    KeptLight& operator=(KeptLight&&) noexcept;
+
+    /// Records the passes of a frame: the camera's rays, then samples for faces that it sees and for those that rays of
+    /// the frame before have hit. Light arrives by one reflection more with each frame. The same calls give the same
+    /// light on every device.
+    ///
+    /// The light stays while trees change: light that a change touches is made anew within some frames, which update()
+    /// sees by itself. In another grid than that of the last call, all begins anew; so it does after a call that failed
+    /// or whose frame was lost. The environment must live for as long as shaders read.
+    ///
+    /// Memory, from the first call on: 36 bytes for each face that there is room for, twice that from when the tree
+    /// changes; about 200 bytes for each of the rays; and what Tracer::tracePaths() takes for lights of the tree. First
+    /// stages: ALL_TRANSFER, COMPUTE_SHADER and DRAW_INDIRECT; last stages: COMPUTE_SHADER and ALL_TRANSFER; on
+    /// resources of zvo. Before the host's shaders read: Recorder::makeVisible(); before the next call: readers of its
+    /// Recorder. Cost: the camera's rays, and two rays for each face that is sampled.
+    ///
+    /// Throws Error{Usage} for cameras that are not valid, for numbers out of range, and for an environment or a tree
+    /// that was lost; then nothing is recorded. Throws Error{Memory}, and what making a kernel throws; then shaders
+    /// find no light until the next call.
+    void update(Recorder& recorder, const Tree& tree, Environment& environment, const CameraInfo& camera,
+                const KeptFrameInfo& info = {});
+    void update(Recorder& recorder, DynamicTree& tree, Environment& environment, const CameraInfo& camera,
+                const KeptFrameInfo& info = {});
+
+    /// The address of a table for the host's shaders (zvo_KeptLightTable), which stays the same however the light is
+    /// moved. What it says means nothing before the first update().
+    [[nodiscard]] std::uint64_t address() const;
+
+    /// Has the next update() begin anew, such as after a cut. Records nothing: shaders see what was kept until then.
+    void forget();
+
+    /// Counts of the newest update() whose frame is done.
+    [[nodiscard]] KeptLightStats stats();
+
+    /// Device memory of all buffers.
+    [[nodiscard]] std::uint64_t bytes() const;
+
+    struct Impl;
+    [[nodiscard]] Impl* impl() const { return m_impl.get(); } // only for the library; null after a move
+
+private:
+    std::unique_ptr<Impl> m_impl;
+};
+
+} // namespace zvo

@@ -1,0 +1,212 @@
+// SPDX-License-Identifier: MIT
+// Light that is kept on voxels, and what rays of a point find: a part of host/trace.glsl, which says how it is used and
+// includes this file behind all else.
+#include "lib/frame.glsl"
+#include "lib/sobol.glsl"
+#include "radiance/kept_faces.h"
+#include "light/map_radiance.glsl"
+#include "path/face.glsl"
+
+// These are parameters of zvo's kernels. Here tables differ, so setKeptLight() sets them.
+struct FaceTable
+{
+    KeptFace_ConstPtr faces;
+    uint run_count;
+};
+FaceTable params;
+
+#include "radiance/face_key.glsl"
+#include "radiance/face_table.glsl"
+#include "radiance/kept_light.glsl"
+#include "radiance/light_of_brick.glsl"
+
+const uint kPointRaysMax = 1024u;
+const uint kSettledSamples = 8u;      // from which on a face's light counts in full where it is mixed with others'
+const float kBrickKnown = 1.0 / 16.0; // how well light is known that is a brick's
+const float kFacingMin = 1.0 / 64.0;  // squared component of a normal below which faces of an axis do not count
+const float kPlaneShareMin = 1.0 / 16.0; // of a plane of faces, where a point is on the next one
+
+// Selects the kept light for what follows. Whether there is any.
+bool setKeptLight(KeptLightTable_ConstPtr light)
+{
+    params.faces = light.data[0].faces;
+    params.run_count = light.data[0].run_count;
+    return uint64_t(params.faces) != 0ul;
+}
+
+// Light of kept faces, by shares.
+struct FaceSum
+{
+    vec3 light;    // times weight
+    float weight;  // share times how settled the light is
+    float present; // share of faces that are kept
+};
+
+// Adds a face to a sum, if it is kept.
+void addFace(ivec3 cell, uint normal, float share, inout FaceSum sum)
+{
+    KeptFace face;
+    bool is_kept = findFace(uvec3(cell) & kHitCoordinateMask, normal, 0u, face) != kNoFace;
+    uint samples = is_kept ? min(keptWeight(face.light), kSettledSamples) : 0u;
+    float weight = share * float(samples) / float(kSettledSamples);
+    sum.light += samples == 0u ? vec3(0.0) : weight * keptRadiance(face.light);
+    sum.weight += weight;
+    sum.present += samples == 0u ? 0.0 : share;
+}
+
+// Adds the four faces with a normal, in the plane of a cell's face, whose middles are around a place. offset: of the
+// place, from the middle of the cell. towards: 1; -1: the cells on the other side.
+void addPlane(ivec3 cell, uint normal, vec3 offset, int towards, float share, inout FaceSum sum)
+{
+    uint axis = normal % 3u;
+    vec2 across = axis == 0u ? offset.yz : axis == 1u ? offset.xz : offset.xy;
+    ivec2 side = towards * ivec2(across.x < 0.0 ? -1 : 1, across.y < 0.0 ? -1 : 1);
+    across = abs(across);
+    for (uint k = 0u; k < 4u; ++k)
+    {
+        bvec2 far = bvec2((k & 1u) != 0u, (k & 2u) != 0u);
+        ivec2 shift = ivec2(far.x ? side.x : 0, far.y ? side.y : 0);
+        ivec3 moved = axis == 0u ? ivec3(0, shift) : axis == 1u ? ivec3(shift.x, 0, shift.y) : ivec3(shift, 0);
+        vec2 part = vec2(far.x ? across.x : 1.0 - across.x, far.y ? across.y : 1.0 - across.y);
+        addFace(cell + moved, normal, share * part.x * part.y, sum);
+    }
+}
+
+// The light of a sum, and from 0 to 1 how settled it is.
+vec4 lightOfSum(FaceSum sum)
+{
+    return sum.weight > 0.0 ? vec4(sum.light / sum.weight, sum.weight / sum.present) : vec4(0.0);
+}
+
+// Light of the faces with a normal around a point (in voxels of the grid): of the planes of faces before and behind it,
+// in between; else of those one voxel further; else of cells beside; else of the least brick around it that keeps any.
+vec4 lightNearPoint(vec3 point, uint normal)
+{
+    ivec3 along = ivec3(abs(normalAxis(normal)));
+    ivec3 cell = ivec3(floor(point));
+    vec3 offset = point - floor(point) - 0.5;
+    float ahead = clamp(dot(offset, vec3(along)) + 0.5, kPlaneShareMin, 1.0 - kPlaneShareMin);
+    cell -= normal < 3u ? along : ivec3(0); // whose face is in the plane at the cell's lower side
+    FaceSum sum = FaceSum(vec3(0.0), 0.0, 0.0);
+    for (int attempt = 0; attempt < 3 && sum.weight == 0.0; ++attempt)
+    {
+        int ring = attempt == 1 ? 1 : 0;
+        int towards = attempt == 2 ? -1 : 1;
+        addPlane(cell - ring * along, normal, offset, towards, 1.0 - ahead, sum);
+        addPlane(cell + (ring + 1) * along, normal, offset, towards, ahead, sum);
+    }
+    vec4 brick = lightOfBrick(uvec3(ivec3(floor(point))) & kHitCoordinateMask, normal, sum.weight == 0.0);
+    return sum.weight > 0.0 ? lightOfSum(sum) : vec4(brick.rgb, kBrickKnown * brick.w);
+}
+
+// The light that arrives at a point of a surface with this normal (length 1), irradiance over pi: the radiance that the
+// surface would have if it were white. It is that of kept faces within two voxels, which face along the axes as the
+// normal does, by the squares of its components; without such faces, that of the least brick of 4^3, 16^3 or 64^3
+// voxels around the point that keeps any. w: how well it is known, from 0, where nothing is kept and rgb is 0, to 1:
+// less where faces of an axis are missing, or have few samples; a 16th where the light is a brick's.
+vec4 zvo_irradiance(KeptLightTable_ConstPtr light, TreeTable_ConstPtr tree, vec3 position, vec3 normal)
+{
+    bool has_light = setKeptLight(light);
+    vec3 point = (position - tree.data[0].origin) / tree.data[0].voxel_size;
+    vec4 sum = vec4(0.0);
+    for (uint axis = 0u; axis < 3u && has_light; ++axis)
+    {
+        float component = axis == 0u ? normal.x : axis == 1u ? normal.y : normal.z;
+        float share = component * component;
+        if (share >= kFacingMin)
+        {
+            vec4 found = lightNearPoint(point, axis + (component < 0.0 ? 3u : 0u));
+            sum += share * found.w * vec4(found.rgb, 1.0);
+        }
+    }
+    return sum.w > 0.0 ? vec4(sum.rgb / sum.w, min(sum.w, 1.0)) : vec4(0.0);
+}
+
+// Radiance from outside of the grid, without the sun, from a direction of any length.
+vec3 zvo_outside(KeptLightTable_ConstPtr light, vec3 direction)
+{
+    Environment_ConstPtr environment = light.data[0].environment;
+    return uint64_t(environment) != 0ul ? mapRadiance(environment, normalize(direction)) : vec3(0.0);
+}
+
+// The light that comes from a hit, against its ray: what the voxel emits and reflects of the kept light, as zvo's
+// pictures of it show; for a miss what is outside, without the sun. w: 1, or 0 where it is not known what it reflects,
+// and rgb is what it emits. origin, direction: of the ray in world space.
+vec4 zvo_keptRadiance(KeptLightTable_ConstPtr light, TreeTable_ConstPtr tree, Hit hit, vec3 origin, vec3 direction)
+{
+    if (!zvo_isHit(hit))
+        return zvo_isUnfinished(hit) ? vec4(0.0) : vec4(zvo_outside(light, direction), 1.0);
+    zvo_Surface surface = zvo_surface(tree, hit, direction);
+    vec3 position = zvo_position(tree, hit, origin, direction);
+    vec4 kept = vec4(0.0);
+    if (!surface.is_voxel)
+        kept = zvo_irradiance(light, tree, position, surface.face_normal);
+    else if (!surface.is_inside && setKeptLight(light))
+    {
+        vec3 offset = clamp((position - surface.middle) / surface.edge, -0.5, 0.5);
+        FaceSum sum = FaceSum(vec3(0.0), 0.0, 0.0);
+        addPlane(ivec3(surface.cell), normalOfHit(hitFace(hit), direction), offset, 1, 1.0, sum);
+        kept = lightOfSum(sum);
+    }
+    bool is_known = kept.w > 0.0 || surface.emission != vec3(0.0);
+    return vec4(surface.emission + surface.base_color * kept.rgb, is_known ? 1.0 : 0.0);
+}
+
+// A random direction to the side of a normal (length 1), by the cosine with it.
+vec3 cosineDirection(vec3 normal, vec2 u)
+{
+    float angle = 2.0 * kPi * u.y;
+    return frameAround(normal) * vec3(sqrt(u.x) * vec2(cos(angle), sin(angle)), sqrt(1.0 - u.x));
+}
+
+// Where rays of a point of a surface begin: behind all voxels that its plane touches.
+vec3 aboveVoxels(TreeTable_ConstPtr tree, vec3 position, vec3 normal)
+{
+    return position + 1.01 * tree.data[0].voxel_size * dot(abs(normal), vec3(1.0)) * normal;
+}
+
+// The share of so many rays, at most 1,024, from a point of a surface with this normal (length 1), by the cosine with
+// it, that meet nothing within a reach in world units. seed: of their directions.
+float zvo_occlusion(TreeTable_ConstPtr tree, vec3 position, vec3 normal, uint rays, float reach, uint seed)
+{
+    vec3 origin = aboveVoxels(tree, position, normal);
+    uint count = clamp(rays, 1u, kPointRaysMax);
+    uint free = 0u;
+    for (uint i = 0u; i < count; ++i)
+    {
+        vec3 direction = cosineDirection(normal, samplePair(i, seed, 0u));
+        free += zvo_occluded(tree, origin, direction, 0.0, reach) ? 0u : 1u;
+    }
+    return float(free) / float(count);
+}
+
+// The light that arrives at a point as zvo_irradiance() gives it, of so many rays, at most 1,024, which find what
+// zvo_keptRadiance() tells of their hits, and of one to the middle of the sun: where no faces are kept, or for what is
+// not among the voxels. seed: of the directions. w: the share of rays that found light; 0: none, and rgb is 0.
+vec4 zvo_gatherIrradiance(KeptLightTable_ConstPtr light, TreeTable_ConstPtr tree, vec3 position, vec3 normal, uint rays,
+                          uint seed)
+{
+    vec3 origin = aboveVoxels(tree, position, normal);
+    uint count = clamp(rays, 1u, kPointRaysMax);
+    vec4 sum = vec4(0.0);
+    for (uint i = 0u; i < count; ++i)
+    {
+        vec3 direction = cosineDirection(normal, samplePair(i, seed, 0u));
+        Hit hit = zvo_trace(tree, origin, direction, 0.0, kTraceTimeMax);
+        vec4 found = zvo_keptRadiance(light, tree, hit, origin, direction);
+        sum += found.w > 0.0 ? found : vec4(0.0);
+    }
+    if (sum.w == 0.0)
+        return vec4(0.0);
+    vec3 irradiance = sum.rgb / sum.w;
+    Environment_ConstPtr environment = light.data[0].environment;
+    if (uint64_t(environment) != 0ul)
+    {
+        vec3 to_sun = environment.data[0].to_sun;
+        // Of a disc of that height, irradiance over pi.
+        vec3 sun = environment.data[0].sun * 2.0 * environment.data[0].sun_height * max(dot(normal, to_sun), 0.0);
+        if (sun != vec3(0.0) && !zvo_occluded(tree, origin, to_sun, 0.0, kTraceTimeMax))
+            irradiance += sun;
+    }
+    return vec4(irradiance, sum.w / float(count));
+}

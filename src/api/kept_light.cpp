@@ -1,0 +1,218 @@
+// SPDX-License-Identifier: MIT
+#include "zvo/kept_light.h"
+
+#include "api/camera.h"
+#include "api/checked.h"
+#include "api/dynamic_tree_impl.h"
+#include "api/environment_impl.h"
+#include "api/kept_light_impl.h"
+#include "api/tree_impl.h"
+#include "core/radiance/kept_light_table.h"
+#include "core/radiance/radiance_tracer.h"
+
+#include <cstddef>
+#include <deque>
+#include <optional>
+#include <span>
+#include <utility>
+#include <vector>
+
+namespace zvo
+{
+
+namespace
+{
+
+// The counts that begin gpu::RadianceCounters.
+constexpr std::size_t kCounts = 2;
+
+} // namespace
+
+KeptLight::Impl::Impl(Context::Impl& context_impl, const KeptLightInfo& light_info)
+    : context(context_impl), info(checked(light_info)),
+      tracer(std::make_unique<TreeTracer>(context.device, &context.deletion_queue)),
+      cache(std::make_unique<RadianceCache>(context.device, &context.deletion_queue)),
+      table(context.device, "kept light table", 1)
+{
+    tracer->resize(info.width, info.height);
+}
+
+KeptLight::Impl::~Impl()
+{
+    context.deleteLater(std::move(tracer));
+    context.deleteLater(std::move(cache));
+    context.deleteLater(std::move(table));
+    for (Report& report : m_reports)
+    {
+        context.deleteLater(std::move(report.counts));
+    }
+}
+
+void KeptLight::Impl::update(Recorder& recorder, const DeviceTree& tree, const Shown& now,
+                             Environment::Impl& environment, const CameraInfo& camera_info,
+                             const KeptFrameInfo& frame_info)
+{
+    const TraceCamera camera = traceCamera(viewOf(camera_info), tree.grid, info.height);
+    const RadianceOptions options = {.faces = checked(frame_info).rays, .seed = frame_info.seed};
+    recording(recorder,
+              [&](Recorder::Impl& impl)
+              {
+                  learn();
+                  if (m_frame && m_frame->is_lost)
+                  {
+                      tracer->forget();
+                      cache->forget();
+                  }
+                  m_frame = impl.frame;
+                  environment.enter(impl.frame);
+                  try
+                  {
+                      follow(now);
+                      addFrame(impl.graph, tree, environment.light, camera, options);
+                      publish(impl.graph, keptLightTable(*cache, environment.light));
+                      report(impl);
+                  }
+                  catch (...) // buffers may have been replaced, and hold no light that is complete
+                  {
+                      cache->forget();
+                      publish(impl.graph, {});
+                      throw;
+                  }
+              });
+}
+
+// Tells the cache what it does not see itself.
+void KeptLight::Impl::follow(const Shown& now)
+{
+    const std::optional<Shown> before = std::exchange(m_shown, now);
+    if (before && !(before->grid == now.grid))
+    {
+        cache->forget(); // a cell is another place
+    }
+    else if (before && (before->tree != now.tree || before->changes != now.changes))
+    {
+        cache->noteChange();
+    }
+}
+
+void KeptLight::Impl::addFrame(vk::FrameGraph& graph, const DeviceTree& tree, DeviceEnvironment& environment,
+                               const TraceCamera& camera, const RadianceOptions& options)
+{
+    if (info.faces != 0)
+    {
+        cache->reserveFaces(info.faces);
+    }
+    const TraceCamera through = shifted(camera, pointOfPixel(cache->frameCount()));
+    tracer->tracePrimary(graph, tree, through, {});
+    cache->update(graph, tree, environment, through, tracer->buffers(), options);
+}
+
+void KeptLight::Impl::publish(vk::FrameGraph& graph, const gpu::KeptLightTable& values)
+{
+    graph.update(table, 0, std::span(&values, 1));
+}
+
+// Records the copy of the frame's counts to the host.
+void KeptLight::Impl::report(Recorder::Impl& recorder)
+{
+    vk::BufferOf<gpu::uint> counts;
+    if (!m_free_counts.empty())
+    {
+        counts = std::move(m_free_counts.back());
+        m_free_counts.pop_back();
+    }
+    else
+    {
+        counts = {context.device, "kept light counts", kCounts, vk::MemoryKind::Readback};
+    }
+    recorder.graph.copy(cache->counters(), 0, counts, 0, counts.bytes());
+    m_reports.push_back({recorder.frame, std::move(counts)});
+}
+
+// Takes the counts of frames that are done.
+void KeptLight::Impl::learn()
+{
+    while (!m_reports.empty() && (m_reports.front().frame->is_done || m_reports.front().frame->is_lost))
+    {
+        Report& first = m_reports.front();
+        if (first.frame->is_done)
+        {
+            const auto* const counts = first.counts.mappedData();
+            newest = {counts[0], counts[1]};
+        }
+        m_free_counts.push_back(std::move(first.counts));
+        m_reports.pop_front();
+    }
+}
+
+void KeptLight::Impl::requireShown(const DeviceTree& tree) const
+{
+    if (!m_shown || m_shown->version != tree.version || (m_frame && m_frame->is_lost) || cache->frameCount() == 0)
+    {
+        throw Error(ErrorCode::Usage, "no light is kept for this tree as it is: KeptLight::update() comes first");
+    }
+}
+
+KeptLight::Impl& usable(const KeptLight& light)
+{
+    return contentOf(light.impl(), "kept light");
+}
+
+KeptLight::KeptLight(Context& context, const KeptLightInfo& info) : m_impl(std::make_unique<Impl>(context.impl(), info))
+{
+}
+
+KeptLight::~KeptLight() = default;
+KeptLight::KeptLight(KeptLight&&) noexcept = default;
+KeptLight& KeptLight::operator=(KeptLight&&) noexcept = default;
+
+void KeptLight::update(Recorder& recorder, const Tree& tree, Environment& environment, const CameraInfo& camera,
+                       const KeptFrameInfo& info)
+{
+    Impl& light = usable(*this);
+    const Tree::Impl& impl = usable(tree);
+    Environment::Impl& outside = usable(environment);
+    requireSame(light.context, impl.context);
+    requireSame(light.context, outside.context);
+    requireSame(light.context, recorder.impl().context);
+    light.update(recorder, impl.fixed, {&impl, impl.fixed.version, impl.fixed.grid, impl.fixed.version}, outside,
+                 camera, info);
+}
+
+void KeptLight::update(Recorder& recorder, DynamicTree& tree, Environment& environment, const CameraInfo& camera,
+                       const KeptFrameInfo& info)
+{
+    Impl& light = usable(*this);
+    DynamicTree::Impl& impl = usable(tree);
+    Environment::Impl& outside = usable(environment);
+    requireSame(light.context, impl.context);
+    requireSame(light.context, outside.context);
+    impl.enter(recorder.impl());
+    const DeviceTree& shown = impl.octree->tree();
+    light.update(recorder, shown, {&impl, impl.edit_count, shown.grid, shown.version}, outside, camera, info);
+}
+
+std::uint64_t KeptLight::address() const
+{
+    return usable(*this).table.address();
+}
+
+void KeptLight::forget()
+{
+    usable(*this).cache->forget();
+}
+
+KeptLightStats KeptLight::stats()
+{
+    Impl& light = usable(*this);
+    light.learn();
+    return light.newest;
+}
+
+std::uint64_t KeptLight::bytes() const
+{
+    const Impl& light = usable(*this);
+    return light.tracer->buffers().bytes() + light.cache->bytes() + light.table.bytes();
+}
+
+} // namespace zvo

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "api/context_impl.h"
+#include "api/environment_impl.h"
+#include "core/radiance/radiance_cache.h"
+#include "core/trace/tree_tracer.h"
+#include "zvo/kept_light.h"
+
+#include <cstdint>
+#include <deque>
+#include <memory>
+#include <optional>
+#include <vector>
+
+namespace zvo
+{
+
+struct ZVO_LOCAL KeptLight::Impl
+{
+    /// Which voxels the light is of.
+    struct Shown
+    {
+        const void* tree;      // the host's
+        std::uint64_t changes; // of it, but for what moves: that has voxels of its own
+        Grid grid;
+        std::uint64_t version; // DeviceTree::version
+    };
+
+    Impl(Context::Impl& context_impl, const KeptLightInfo& light_info);
+    ~Impl();
+    Impl(const Impl&) = delete;
+    Impl& operator=(const Impl&) = delete;
+
+    void update(Recorder& recorder, const DeviceTree& tree, const Shown& now, Environment::Impl& environment,
+                const CameraInfo& camera_info, const KeptFrameInfo& frame_info);
+
+    /// Throws Error{Usage} unless the last update was of this tree, as it is.
+    void requireShown(const DeviceTree& tree) const;
+
+    /// Takes the counts of frames that are done.
+    void learn();
+
+    Context::Impl& context;
+    KeptLightInfo info;
+    std::unique_ptr<TreeTracer> tracer; // of the camera's rays
+    std::unique_ptr<RadianceCache> cache;
+    vk::BufferOf<gpu::KeptLightTable> table;
+    KeptLightStats newest = {};
+
+private:
+    // The counts of an update, in a frame that is not known to be done.
+    struct Report
+    {
+        std::shared_ptr<FrameState> frame;
+        vk::BufferOf<gpu::uint> counts;
+    };
+
+    void follow(const Shown& now);
+    void addFrame(vk::FrameGraph& graph, const DeviceTree& tree, DeviceEnvironment& environment,
+                  const TraceCamera& camera, const RadianceOptions& options);
+    void publish(vk::FrameGraph& graph, const gpu::KeptLightTable& values);
+    void report(Recorder::Impl& recorder);
+
+    std::shared_ptr<FrameState> m_frame = nullptr; // of the last update
+    std::optional<Shown> m_shown = std::nullopt;   // by it
+    std::deque<Report> m_reports = {};
+    std::vector<vk::BufferOf<gpu::uint>> m_free_counts = {};
+};
+
+/// Throws Error{Usage} for kept light that was moved from.
+KeptLight::Impl& usable(const KeptLight& light);
+
+} // namespace zvo
