@@ -65,6 +65,7 @@ const Columns<KeptRow>& keptColumns()
          [](const Row& row) { return row.quality ? fmt::format("{:.2f}", 100.0 * row.quality->relative) : "-"; }},
         {"PSNR dB", 7, [](const Row& row) { return row.quality ? fmt::format("{:.2f}", row.quality->psnr_db) : "-"; }},
         {"SSIM", 6, [](const Row& row) { return row.quality ? fmt::format("{:.4f}", row.quality->ssim) : "-"; }},
+        {"FLIP", 6, [](const Row& row) { return row.quality ? fmt::format("{:.4f}", row.quality->flip) : "-"; }},
         {"frame ms", 8, [](const Row& row) { return fmt::format("{:.1f}", row.frame_ms); }},
         {"total ms", 8, [](const Row& row) { return fmt::format("{:.0f}", row.total_ms); }},
         {"as paths", 8, [](const Row& row) { return optionalText(row.paths_of_error, 0); }},
@@ -237,6 +238,7 @@ Json keptReportJson(const vk::DeviceReport& device, const BenchOptions& options,
             entry["relative_error"] = row.quality->relative;
             entry["psnr_db"] = row.quality->psnr_db;
             entry["ssim"] = row.quality->ssim;
+            entry["flip"] = row.quality->flip;
         }
         if (row.paths_of_error)
         {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "bench/picture_quality.h"
 
+#include "bench/flip.h"
+
 #include <glm/glm.hpp>
 
 #include <algorithm>
@@ -149,7 +151,9 @@ PictureQuality compareTo(const HdrImage& reference, const HdrImage& picture)
         squares += glm::dot(a[i] - b[i], a[i] - b[i]) / 3;
     }
     const double mean_square = squares / static_cast<double>(a.size());
+    const std::vector<double> flip = flipOf(a, b, reference.width, reference.height);
     return {-10 * std::log10(std::max(mean_square, 1e-12)), meanSsim(a, b, reference.width, reference.height),
+            std::accumulate(flip.begin(), flip.end(), 0.0) / static_cast<double>(flip.size()),
             relativeError(reference, picture)};
 }
 

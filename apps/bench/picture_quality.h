@@ -11,6 +11,7 @@ struct PictureQuality
 {
     double psnr_db = 0;  // of the sRGB codes
     double ssim = 0;     // of their luma, mean over the picture
+    double flip = 0;     // FLIP of them (bench/flip.h), mean over the picture
     double relative = 0; // mean error of linear luminance over the reference's, plus a hundredth of its mean
 };
 

@@ -130,6 +130,8 @@ TEST_F(CliCached, IsMeasuredBesidePaths)
     EXPECT_EQ(rows[6]["integrator"], "cached");
     EXPECT_LT(rows[6]["relative_error"], rows[1]["relative_error"]);
     EXPECT_GT(rows[6]["paths_of_error"], 1.0);
+    EXPECT_GT(rows[6]["flip"], 0.0);
+    EXPECT_LT(rows[6]["flip"], 1.0);
     expectErrorLine(runZvo(m_dir.path(), {"bench", "--kept", "--denoise", "cube.glb"}), 2, {"--kept"});
     expectErrorLine(runZvo(m_dir.path(), {"bench", "--reference", "4", "cube.glb"}), 2, {"--reference", "--kept"});
 }
