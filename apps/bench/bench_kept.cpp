@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "bench/bench_kept.h"
 
+#include "bench/bench_scenes.h"
+#include "bench/kept_motion.h"
 #include "bench/lit_scenes.h"
 #include "bench/picture_quality.h"
 #include "bench/table.h"
@@ -19,6 +21,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <filesystem>
+#include <iterator>
 #include <optional>
 #include <string>
 #include <vector>
@@ -219,7 +223,8 @@ private:
     TraceCamera m_camera;
 };
 
-Json keptReportJson(const vk::DeviceReport& device, const BenchOptions& options, const std::vector<KeptRow>& rows)
+Json keptReportJson(const vk::DeviceReport& device, const BenchOptions& options, const std::vector<KeptRow>& rows,
+                    std::span<const MotionResult> motion)
 {
     Json json = headJson("zvo.bench_kept/1", device);
     json["width"] = options.path_width;
@@ -247,21 +252,30 @@ Json keptReportJson(const vk::DeviceReport& device, const BenchOptions& options,
         }
         json["rows"].push_back(std::move(entry));
     }
+    json["motion"] = motionJson(motion);
     return json;
 }
 
-std::string keptTable(const vk::DeviceReport& device, const BenchOptions& options, const std::vector<KeptRow>& rows)
+std::string keptTable(const vk::DeviceReport& device, const BenchOptions& options, const std::vector<KeptRow>& rows,
+                      std::span<const MotionResult> motion)
 {
     std::string text =
         fmt::format("zvo {} on {} ({}, {}). Pictures of {} x {} pixels beside one of {} paths a pixel with another "
-                    "seed. Light that "
-                    "is kept is sampled on {} faces a frame; a picture is {} frames behind those that are named. GPU "
-                    "milliseconds.\n\n{}",
+                    "seed. Light that is kept is sampled on {} faces a frame.\n\n",
                     ZVO_VERSION_TEXT, device.name, device.type, device.driver, options.path_width, options.path_height,
-                    options.reference_samples, RadianceOptions().faces, kPictureFrames, columnNames(keptColumns()));
-    for (const KeptRow& row : rows)
+                    options.reference_samples, RadianceOptions().faces);
+    if (!rows.empty())
     {
-        text += columnValues(keptColumns(), row);
+        text += fmt::format("A picture of it is {} frames behind those that are named. GPU milliseconds.\n\n{}",
+                            kPictureFrames, columnNames(keptColumns()));
+        for (const KeptRow& row : rows)
+        {
+            text += columnValues(keptColumns(), row);
+        }
+    }
+    if (!motion.empty())
+    {
+        text += fmt::format("{}{}", rows.empty() ? "" : "\n", motionText(motion));
     }
     return text;
 }
@@ -274,32 +288,43 @@ void benchKept(const BenchOptions& options)
     constexpr std::array<std::uint32_t, 3> kFrameCounts = {16, 64, 256};
     const std::vector<std::uint32_t> depths = {kKeptDepth};
     std::optional<Output> report = openReport(options.output);
+    BenchOptions still = options;
+    still.scenes = benchScenes(options);
+    std::vector<std::filesystem::path> moving;
+    std::ranges::copy_if(still.scenes, std::back_inserter(moving), isSceneFile);
+    std::erase_if(still.scenes, isSceneFile);
+    const bool has_still = !still.scenes.empty(); // else it would be the usual ones
     vk::HeadlessDevice device(headlessOptions(options.device), zvoKernels());
     std::vector<KeptRow> rows;
-    Progress progress(litSceneCount(options, depths));
-    forEachLitScene(device, options, depths, static_cast<double>(options.path_width) / options.path_height,
-                    [&](LitScene& scene)
-                    {
-                        progress.begin(fmt::format("{} by {}", scene.name, scene.light_name));
-                        KeptBench bench(device, scene, options.path_width, options.path_height);
-                        const HdrImage reference = bench.reference(
-                            options.reference_samples, [&](std::uint32_t samples)
+    Progress progress((has_still ? litSceneCount(still, depths) : 0) + motionCount(options, moving));
+    const auto measureStill = [&](LitScene& scene)
+    {
+        progress.begin(fmt::format("{} by {}", scene.name, scene.light_name));
+        KeptBench bench(device, scene, options.path_width, options.path_height);
+        const HdrImage reference =
+            bench.reference(options.reference_samples, [&](std::uint32_t samples)
                             { progress.within(static_cast<double>(samples) / options.reference_samples); });
-                        rows.push_back(bench.primary());
-                        const std::vector<KeptRow> paths = bench.paths(reference, kPathCounts);
-                        rows.insert(rows.end(), paths.begin(), paths.end());
-                        const std::vector<KeptRow> kept = bench.kept(reference, kFrameCounts, paths.back());
-                        rows.insert(rows.end(), kept.begin(), kept.end());
-                    });
+        rows.push_back(bench.primary());
+        const std::vector<KeptRow> paths = bench.paths(reference, kPathCounts);
+        rows.insert(rows.end(), paths.begin(), paths.end());
+        const std::vector<KeptRow> kept = bench.kept(reference, kFrameCounts, paths.back());
+        rows.insert(rows.end(), kept.begin(), kept.end());
+    };
+    if (has_still)
+    {
+        forEachLitScene(device, still, depths, static_cast<double>(options.path_width) / options.path_height,
+                        measureStill);
+    }
+    const std::vector<MotionResult> motion = measureMotion(device, options, moving, kKeptDepth, progress);
     clearProgressBar();
     if (options.output.json != "-")
     {
-        Output("-", true).write(keptTable(device.device().report(), options, rows));
+        Output("-", true).write(keptTable(device.device().report(), options, rows, motion));
     }
     checkValidation(device);
     if (report)
     {
-        writeReport(*report, keptReportJson(device.device().report(), options, rows));
+        writeReport(*report, keptReportJson(device.device().report(), options, rows, motion));
     }
 }
 

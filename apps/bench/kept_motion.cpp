@@ -1,0 +1,445 @@
+// SPDX-License-Identifier: MIT
+#include "bench/kept_motion.h"
+
+#include "bench/bench_scenes.h"
+#include "bench/lit_scenes.h"
+#include "bench/picture_quality.h"
+#include "bench/table.h"
+#include "common/view.h"
+#include "core/light/light_tree.h"
+#include "core/path/path_tracer.h"
+#include "core/radiance/radiance_tracer.h"
+#include "runtime/live_scene.h"
+#include "zvo/error.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+namespace zvo::cli
+{
+
+namespace
+{
+
+constexpr std::uint32_t kLightFrames = 256;  // of light before pictures, with or without a movement at their end
+constexpr std::uint32_t kRunFrames = 60;     // of the movement
+constexpr std::uint32_t kFlickerFrames = 32; // the last of either
+constexpr std::array<std::uint32_t, 5> kFramesAfter = {0, 4, 8, 16, 32};
+
+// Where what moves is looked for, in frames before it stands: all that it passes while flicker is measured, and where
+// its light may linger when it stands.
+constexpr std::array<std::uint32_t, 6> kPassed = {0, 8, 16, 24, 32, kRunFrames};
+constexpr std::uint32_t kLingers = 16;
+constexpr std::uint32_t kPassedSamples = 128; // a pixel of pictures that find it
+constexpr int kPassedRadius = 2;              // pixels around, over whose mean changes are looked for
+constexpr double kNearChange = 0.05;
+constexpr double kCalmChange = 0.02;
+constexpr std::uint32_t kPathBounces = 32;
+
+using Values = std::vector<double>;
+using Mask = std::vector<bool>;
+
+std::optional<double> meanWhere(const Mask& mask, const Values& values)
+{
+    Values chosen;
+    for (std::size_t i = 0; i < values.size(); ++i)
+    {
+        if (mask[i])
+        {
+            chosen.push_back(values[i]);
+        }
+    }
+    return chosen.empty() ? std::nullopt : std::optional(meanOf(chosen));
+}
+
+double shareOf(const Mask& mask)
+{
+    return static_cast<double>(std::ranges::count(mask, true)) / static_cast<double>(mask.size());
+}
+
+// The mean of the pixels around each one.
+HdrImage smoothed(const HdrImage& picture)
+{
+    HdrImage mean = picture;
+    const int width = static_cast<int>(picture.width);
+    const int height = static_cast<int>(picture.height);
+    for (int y = 0; y < height; ++y)
+    {
+        for (int x = 0; x < width; ++x)
+        {
+            glm::dvec3 sum(0.0);
+            double count = 0;
+            for (int v = std::max(y - kPassedRadius, 0); v <= std::min(y + kPassedRadius, height - 1); ++v)
+            {
+                for (int u = std::max(x - kPassedRadius, 0); u <= std::min(x + kPassedRadius, width - 1); ++u)
+                {
+                    sum += picture.texels[static_cast<std::size_t>(v * width + u)];
+                    ++count;
+                }
+            }
+            mean.texels[static_cast<std::size_t>(y * width + x)] = sum / count;
+        }
+    }
+    return mean;
+}
+
+/// Mean and deviation of each pixel's luminance over frames.
+class Flicker
+{
+public:
+    void add(const HdrImage& picture)
+    {
+        const Values luminances = luminancesOf(picture);
+        m_sums.resize(luminances.size());
+        m_squares.resize(luminances.size());
+        for (std::size_t i = 0; i < luminances.size(); ++i)
+        {
+            m_sums[i] += luminances[i];
+            m_squares[i] += luminances[i] * luminances[i];
+        }
+        ++m_count;
+    }
+
+    /// The standard deviation of each pixel over its mean. Dark pixels count as in relativeErrors().
+    [[nodiscard]] Values relative() const
+    {
+        const double least = std::max(0.01 * meanOf(m_sums) / m_count, 1e-20);
+        Values deviations;
+        for (std::size_t i = 0; i < m_sums.size(); ++i)
+        {
+            const double mean = m_sums[i] / m_count;
+            const double variance = std::max(m_squares[i] / m_count - mean * mean, 0.0);
+            deviations.push_back(std::sqrt(variance * m_count / (m_count - 1)) / (mean + least));
+        }
+        return deviations;
+    }
+
+private:
+    Values m_sums;
+    Values m_squares;
+    double m_count = 0;
+};
+
+/// Makes pictures of one scene by one light while something moves in it, or stands.
+class MotionBench
+{
+public:
+    MotionBench(vk::HeadlessDevice& device, LiveScene& live, DeviceEnvironment& light, const TraceCamera& camera,
+                const BenchOptions& options)
+        : m_device(device), m_live(live), m_light(light), m_camera(camera), m_options(options),
+          m_stand(standingFrame(live.animated()))
+    {
+    }
+
+    MotionResult measure(Progress& progress)
+    {
+        const auto [near, calm] = findMasks(progress);
+        MotionResult result;
+        result.resolution = m_live.tree().grid.resolution();
+        result.near_share = shareOf(near);
+        result.calm_share = shareOf(calm);
+        show(m_stand);
+        const HdrImage reference = trace(m_options.reference_samples, {.bounces = kPathBounces, .seed = 1}, progress);
+        progress.within(0.8, "light where it stands");
+        const auto errorOf = [&, &near = near](RadianceTracer& tracer, std::uint32_t frames)
+        {
+            const HdrImage picture = pictureOf(tracer);
+            const Values errors = relativeErrors(reference, picture);
+            return MotionError{frames, meanOf(errors), meanWhere(near, errors), compareTo(reference, picture).flip};
+        };
+        {
+            RadianceTracer tracer = tracerOf();
+            result.flicker_still = meanWhere(calm, keepLight(tracer, [](std::uint32_t) {}));
+            result.still = errorOf(tracer, kLightFrames);
+        }
+        progress.within(0.9, "light where it moves");
+        RadianceTracer tracer = tracerOf();
+        const auto move = [&](std::uint32_t frame) { show(m_stand - std::min(kLightFrames - 1 - frame, kRunFrames)); };
+        result.flicker_moving = meanWhere(calm, keepLight(tracer, move));
+        for (const std::uint32_t frames : kFramesAfter)
+        {
+            for (std::uint32_t frame = result.after.empty() ? 0 : result.after.back().frames; frame < frames; ++frame)
+            {
+                addFrame(tracer);
+            }
+            result.after.push_back(errorOf(tracer, frames));
+        }
+        return result;
+    }
+
+private:
+    // In the middle of the scene's time, after as many frames as a movement takes.
+    static std::uint64_t standingFrame(const AnimatedScene& animated)
+    {
+        const auto count =
+            static_cast<std::uint64_t>(std::max(1.0, std::round(animated.seconds * animated.frames_per_second)));
+        return count / 2 + count * kRunFrames;
+    }
+
+    void show(std::uint64_t frame) { m_live.settle(frameTime(m_live.animated(), frame)); }
+
+    RadianceTracer tracerOf()
+    {
+        RadianceTracer tracer(m_device.device());
+        tracer.resize(m_options.path_width, m_options.path_height);
+        return tracer;
+    }
+
+    void addFrame(RadianceTracer& tracer)
+    {
+        tracer.beginPicture(); // as a window does where something moves
+        m_device.run([&](vk::FrameGraph& graph) { tracer.addFrame(graph, m_live.tree(), m_light, m_camera, {}); });
+    }
+
+    // Brings light up to date. before: called before each frame. Returns the flicker of each pixel in the last frames.
+    template <typename Before> Values keepLight(RadianceTracer& tracer, const Before& before)
+    {
+        Flicker flicker;
+        for (std::uint32_t frame = 0; frame < kLightFrames; ++frame)
+        {
+            before(frame);
+            addFrame(tracer);
+            if (frame >= kLightFrames - kFlickerFrames)
+            {
+                flicker.add(pictureOf(tracer));
+            }
+        }
+        return flicker.relative();
+    }
+
+    HdrImage trace(std::uint32_t samples, const PathOptions& options, Progress& progress)
+    {
+        PathTracer tracer(m_device.device());
+        tracer.resize(m_options.path_width, m_options.path_height);
+        for (std::uint32_t i = 0; i < samples; ++i)
+        {
+            m_device.run([&](vk::FrameGraph& graph)
+                         { tracer.addSample(graph, m_live.tree(), m_light, m_camera, options); });
+            progress.within(0.2 + 0.6 * i / samples, fmt::format("{}/{} samples", i + 1, samples));
+        }
+        return pictureOf(tracer);
+    }
+
+    // The pixels in which what moves counts where it stands or was shortly before, and those in which it never does.
+    // All pictures have the same random numbers, so that only paths that it changes make a difference.
+    std::pair<Mask, Mask> findMasks(Progress& progress)
+    {
+        const PathOptions options = {.bounces = kPathBounces};
+        moveAway(true);
+        show(m_stand);
+        const HdrImage without = smoothed(trace(kPassedSamples, options, progress));
+        moveAway(false);
+        Mask near(without.texels.size(), false);
+        Mask calm(without.texels.size(), true);
+        for (const std::uint32_t frames : kPassed)
+        {
+            show(m_stand - frames);
+            const Values changes = relativeErrors(without, smoothed(trace(kPassedSamples, options, progress)));
+            for (std::size_t i = 0; i < changes.size(); ++i)
+            {
+                near[i] = near[i] || (frames <= kLingers && changes[i] > kNearChange);
+                calm[i] = calm[i] && changes[i] < kCalmChange;
+            }
+        }
+        return {near, calm};
+    }
+
+    // Moves all objects out of the grid, or back.
+    void moveAway(bool away)
+    {
+        const Grid& grid = m_live.tree().grid;
+        for (std::size_t i = 0; i < m_live.animated().objects.size(); ++i)
+        {
+            m_live.setOffset(i,
+                             away ? glm::dvec3(16.0 * grid.resolution() * double{grid.voxel_size}) : glm::dvec3(0.0));
+        }
+    }
+
+    template <typename Tracer> HdrImage pictureOf(Tracer& tracer)
+    {
+        const SampledPicture picture = tracer.picture();
+        return zvo::pictureOf(m_device.download(picture.sums), picture.width, picture.height, picture.sample_count);
+    }
+
+    vk::HeadlessDevice& m_device;
+    LiveScene& m_live;
+    DeviceEnvironment& m_light;
+    TraceCamera m_camera;
+    const BenchOptions& m_options;
+    std::uint64_t m_stand; // the frame of the scene's time in which what moves stands
+};
+
+// A line of the table of errors.
+struct MotionLine
+{
+    const MotionResult& result;
+    const MotionError& error;
+};
+
+std::string motionPercent(const std::optional<double>& value)
+{
+    return value ? fmt::format("{:.2f}", 100.0 * *value) : "-";
+}
+
+std::optional<double> ratioOf(const std::optional<double>& value, const std::optional<double>& to)
+{
+    return value && to && *to > 0 ? std::optional(*value / *to) : std::nullopt;
+}
+
+std::string ratioText(const std::optional<double>& value, const std::optional<double>& to)
+{
+    const std::optional<double> ratio = ratioOf(value, to);
+    return ratio ? fmt::format("{:.2f}", *ratio) : "-";
+}
+
+const Columns<MotionLine>& motionColumns()
+{
+    using Row = MotionLine;
+    static const Columns<Row> all = {
+        {"scene", 12, [](const Row& row) { return row.result.scene; }},
+        {"resolution", 10, [](const Row& row) { return fmt::format("{}", row.result.resolution); }},
+        {"light", 5, [](const Row& row) { return row.result.light; }},
+        {"frames", 6,
+         [](const Row& row)
+         { return &row.error == &row.result.still ? "still" : fmt::format("{}", row.error.frames); }},
+        {"error %", 7, [](const Row& row) { return motionPercent(row.error.all); }},
+        {"of still", 8, [](const Row& row) { return ratioText(row.error.all, row.result.still.all); }},
+        {"near %", 6, [](const Row& row) { return motionPercent(row.error.near); }},
+        {"of still", 8, [](const Row& row) { return ratioText(row.error.near, row.result.still.near); }},
+        {"FLIP", 6, [](const Row& row) { return fmt::format("{:.4f}", row.error.flip); }},
+    };
+    return all;
+}
+
+const Columns<MotionResult>& flickerColumns()
+{
+    using Row = MotionResult;
+    static const Columns<Row> all = {
+        {"scene", 12, [](const Row& row) { return row.scene; }},
+        {"resolution", 10, [](const Row& row) { return fmt::format("{}", row.resolution); }},
+        {"light", 5, [](const Row& row) { return row.light; }},
+        {"near pixels %", 13, [](const Row& row) { return motionPercent(row.near_share); }},
+        {"calm pixels %", 13, [](const Row& row) { return motionPercent(row.calm_share); }},
+        {"flicker %", 9, [](const Row& row) { return motionPercent(row.flicker_still); }},
+        {"moving %", 8, [](const Row& row) { return motionPercent(row.flicker_moving); }},
+        {"of still", 8, [](const Row& row) { return ratioText(row.flicker_moving, row.flicker_still); }},
+    };
+    return all;
+}
+
+Json motionNumber(const std::optional<double>& value)
+{
+    return value ? Json(*value) : Json(nullptr);
+}
+
+Json errorJson(const MotionError& error)
+{
+    return {{"frames", error.frames},
+            {"relative_error", error.all},
+            {"near_relative_error", motionNumber(error.near)},
+            {"flip", error.flip}};
+}
+
+} // namespace
+
+std::size_t motionCount(const BenchOptions& options, std::span<const std::filesystem::path> scenes)
+{
+    return 2 * scenes.size() * (options.depths ? options.depths->size() : 1);
+}
+
+std::vector<MotionResult> measureMotion(vk::HeadlessDevice& device, const BenchOptions& options,
+                                        std::span<const std::filesystem::path> scenes, std::uint32_t depth,
+                                        Progress& progress)
+{
+    std::vector<MotionResult> results;
+    for (const std::filesystem::path& path : scenes)
+    {
+        const std::string name = path.stem().stem().string();
+        const AnimatedScene animated = loadSceneFile(options, path);
+        if (animated.objects.empty())
+        {
+            throw Error(ErrorCode::Input, fmt::format("{}: nothing moves in this scene", path.string()));
+        }
+        const Bounds bounds = boundsOverTime(animated);
+        for (const std::uint32_t scene_depth : options.depths.value_or(std::vector{depth}))
+        {
+            const Grid grid = gridOf(animated, bounds, scene_depth);
+            const ViewCamera view = chooseCamera(options.camera, animated, subjectOf(bounds, grid),
+                                                 static_cast<double>(options.path_width) / options.path_height);
+            LiveScene live(device, AnimatedScene(animated), grid,
+                           {options.coverage, options.attributes, options.structure});
+            for (const bool by_day : {true, false})
+            {
+                if (!by_day && !hasEmission(live.tree()))
+                {
+                    continue;
+                }
+                progress.begin(fmt::format("{} by {}", name, by_day ? "day" : "night"));
+                DeviceEnvironment light = lightFor(device, name, by_day);
+                MotionBench bench(device, live, light, traceCamera(view, grid, options.path_height), options);
+                results.push_back(bench.measure(progress));
+                results.back().scene = name;
+                results.back().light = by_day ? "day" : "night";
+            }
+        }
+    }
+    return results;
+}
+
+std::string motionText(std::span<const MotionResult> results)
+{
+    std::string text =
+        fmt::format("It follows: pictures of one frame of light that is kept, {} frames old, in which something has "
+                    "moved for {} frames and now stands for those that are named, beside one in which it always stood "
+                    "there. \"near\" is where it changes the light by more than {:.0f} %, there or on its last {} "
+                    "frames' way.\n\n{}",
+                    kLightFrames, kRunFrames, 100 * kNearChange, kLingers, columnNames(motionColumns()));
+    for (const MotionResult& result : results)
+    {
+        text += columnValues(motionColumns(), {result, result.still});
+        for (const MotionError& error : result.after)
+        {
+            text += columnValues(motionColumns(), {result, error});
+        }
+    }
+    text += fmt::format("\nFlicker: the standard deviation over {} frames, beside the mean, of pixels that what moves "
+                        "changes by less than {:.0f} %; while it stands, and while it moves.\n\n{}",
+                        kFlickerFrames, 100 * kCalmChange, columnNames(flickerColumns()));
+    for (const MotionResult& result : results)
+    {
+        text += columnValues(flickerColumns(), result);
+    }
+    return text;
+}
+
+Json motionJson(std::span<const MotionResult> results)
+{
+    Json json = Json::array();
+    for (const MotionResult& result : results)
+    {
+        Json entry = {{"scene", result.scene},           {"resolution", result.resolution},
+                      {"light", result.light},           {"light_frames", kLightFrames},
+                      {"run_frames", kRunFrames},        {"near_share", result.near_share},
+                      {"calm_share", result.calm_share}, {"still", errorJson(result.still)}};
+        entry["after"] = Json::array();
+        for (const MotionError& error : result.after)
+        {
+            Json after = errorJson(error);
+            after["of_still"] = motionNumber(ratioOf(error.all, result.still.all));
+            after["near_of_still"] = motionNumber(ratioOf(error.near, result.still.near));
+            entry["after"].push_back(std::move(after));
+        }
+        entry["flicker"] = {{"frames", kFlickerFrames},
+                            {"still", motionNumber(result.flicker_still)},
+                            {"moving", motionNumber(result.flicker_moving)},
+                            {"of_still", motionNumber(ratioOf(result.flicker_moving, result.flicker_still))}};
+        json.push_back(std::move(entry));
+    }
+    return json;
+}
+
+} // namespace zvo::cli

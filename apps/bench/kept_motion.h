@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "bench/bench_options.h"
+#include "common/progress.h"
+#include "common/report.h"
+#include "vk/headless.h"
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace zvo::cli
+{
+
+/// The mean relative error of a picture of one frame of kept light: over all pixels, and where what moves counts.
+struct MotionError
+{
+    std::uint32_t frames = 0; // since what moves stands
+    double all = 0;
+    std::optional<double> near; // nothing where no pixel counts
+    double flip = 0;
+};
+
+/// How light that is kept follows what moves: at a place to which it came, beside one at which it always was.
+struct MotionResult
+{
+    std::string scene;
+    std::uint32_t resolution = 0;
+    std::string light;
+    double near_share = 0; // of the pixels: there the light is other with what moves than without
+    double calm_share = 0; // of the pixels: there it is the same
+    MotionError still;
+    std::vector<MotionError> after;
+    std::optional<double> flicker_still; // of calm pixels
+    std::optional<double> flicker_moving;
+};
+
+/// How many results measureMotion() gives, at most.
+std::size_t motionCount(const BenchOptions& options, std::span<const std::filesystem::path> scenes);
+
+/// Measures scene files in which something moves, by day, and at night if there are voxels that give off light. depth:
+/// where options have none. Throws Error.
+std::vector<MotionResult> measureMotion(vk::HeadlessDevice& device, const BenchOptions& options,
+                                        std::span<const std::filesystem::path> scenes, std::uint32_t depth,
+                                        Progress& progress);
+
+/// What the results are, and tables of them.
+std::string motionText(std::span<const MotionResult> results);
+
+Json motionJson(std::span<const MotionResult> results);
+
+} // namespace zvo::cli
