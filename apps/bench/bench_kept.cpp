@@ -45,6 +45,7 @@ struct KeptRow
     std::string integrator;
     std::uint32_t count = 0; // paths a pixel, or frames before the picture
     std::optional<PictureQuality> quality;
+    std::optional<double> noise;          // error of the reference
     double frame_ms = 0;                  // median of a sample or frame
     double total_ms = 0;                  // of all before the picture
     std::optional<double> paths_of_error; // a pixel that path tracing needs for the same error
@@ -67,6 +68,7 @@ const Columns<KeptRow>& keptColumns()
         {"samples", 7, [](const Row& row) { return fmt::format("{}", row.count); }},
         {"error %", 7,
          [](const Row& row) { return row.quality ? fmt::format("{:.2f}", 100.0 * row.quality->relative) : "-"; }},
+        {"noise %", 7, [](const Row& row) { return row.noise ? fmt::format("{:.2f}", 100.0 * *row.noise) : "-"; }},
         {"PSNR dB", 7, [](const Row& row) { return row.quality ? fmt::format("{:.2f}", row.quality->psnr_db) : "-"; }},
         {"SSIM", 6, [](const Row& row) { return row.quality ? fmt::format("{:.4f}", row.quality->ssim) : "-"; }},
         {"FLIP", 6, [](const Row& row) { return row.quality ? fmt::format("{:.4f}", row.quality->flip) : "-"; }},
@@ -97,6 +99,7 @@ public:
 
     template <typename Told> HdrImage reference(std::uint32_t samples, const Told& told)
     {
+        m_reference_samples = samples;
         PathTracer tracer(m_device.device());
         tracer.resize(m_width, m_height);
         for (std::uint32_t i = 0; i < samples; ++i)
@@ -145,6 +148,12 @@ public:
             setTimes(row, ms);
             rows.push_back(row);
         }
+        // The error of paths falls with the square root of their number, and both pictures have their share of it.
+        const double share = static_cast<double>(counts.back()) / (counts.back() + m_reference_samples);
+        for (KeptRow& row : rows)
+        {
+            row.noise = rows.back().quality->relative * std::sqrt(share);
+        }
         return rows;
     }
 
@@ -173,7 +182,7 @@ public:
             KeptRow row = rowOf("cached", count);
             row.quality = compareTo(reference, imageOf(tracer.picture()));
             setTimes(row, ms);
-            // The error of paths falls with the square root of their number.
+            row.noise = path.noise;
             row.paths_of_error = path.count * std::pow(path.quality->relative / row.quality->relative, 2.0);
             row.bytes_of_voxel =
                 static_cast<double>(tracer.cache().bytes()) / static_cast<double>(m_scene.tree.voxel_count);
@@ -220,6 +229,7 @@ private:
     const LitScene& m_scene;
     std::uint32_t m_width;
     std::uint32_t m_height;
+    std::uint32_t m_reference_samples = 0;
     TraceCamera m_camera;
 };
 
@@ -241,6 +251,7 @@ Json keptReportJson(const vk::DeviceReport& device, const BenchOptions& options,
         if (row.quality)
         {
             entry["relative_error"] = row.quality->relative;
+            entry["reference_error"] = *row.noise;
             entry["psnr_db"] = row.quality->psnr_db;
             entry["ssim"] = row.quality->ssim;
             entry["flip"] = row.quality->flip;
@@ -290,9 +301,10 @@ void benchKept(const BenchOptions& options)
     std::optional<Output> report = openReport(options.output);
     BenchOptions still = options;
     still.scenes = benchScenes(options);
-    std::vector<std::filesystem::path> moving;
-    std::ranges::copy_if(still.scenes, std::back_inserter(moving), isSceneFile);
+    std::vector<std::filesystem::path> scene_files;
+    std::ranges::copy_if(still.scenes, std::back_inserter(scene_files), isSceneFile);
     std::erase_if(still.scenes, isSceneFile);
+    const std::vector<MovingScene> moving = loadMovingScenes(options, scene_files);
     const bool has_still = !still.scenes.empty(); // else it would be the usual ones
     vk::HeadlessDevice device(headlessOptions(options.device), zvoKernels());
     std::vector<KeptRow> rows;

@@ -34,8 +34,8 @@ constexpr std::array<std::uint32_t, 5> kFramesAfter = {0, 4, 8, 16, 32};
 // its light may linger when it stands.
 constexpr std::array<std::uint32_t, 6> kPassed = {0, 8, 16, 24, 32, kRunFrames};
 constexpr std::uint32_t kLingers = 16;
-constexpr std::uint32_t kPassedSamples = 128; // a pixel of pictures that find it
-constexpr int kPassedRadius = 2;              // pixels around, over whose mean changes are looked for
+constexpr std::uint32_t kPassedSamples = 48; // a pixel of pictures that find it
+constexpr int kPassedRadius = 2;             // pixels around, over whose mean changes are looked for
 constexpr double kNearChange = 0.05;
 constexpr double kCalmChange = 0.02;
 constexpr std::uint32_t kPathBounces = 32;
@@ -145,28 +145,28 @@ public:
         show(m_stand);
         const HdrImage reference = trace(m_options.reference_samples, {.bounces = kPathBounces, .seed = 1}, progress);
         progress.within(0.8, "light where it stands");
-        const auto errorOf = [&, &near = near](RadianceTracer& tracer, std::uint32_t frames)
+        RadianceTracer standing = tracerOf();
+        result.flicker_still = meanWhere(calm, keepLight(standing, [](std::uint32_t) {}));
+        const HdrImage still = pictureOf(standing);
+        const auto errorOf = [&, &near = near](const HdrImage& picture, std::uint32_t frames)
         {
-            const HdrImage picture = pictureOf(tracer);
             const Values errors = relativeErrors(reference, picture);
-            return MotionError{frames, meanOf(errors), meanWhere(near, errors), compareTo(reference, picture).flip};
+            return MotionError{frames, meanOf(errors), meanWhere(near, errors), compareTo(reference, picture).flip,
+                               meanWhere(near, relativeErrors(still, picture))};
         };
-        {
-            RadianceTracer tracer = tracerOf();
-            result.flicker_still = meanWhere(calm, keepLight(tracer, [](std::uint32_t) {}));
-            result.still = errorOf(tracer, kLightFrames);
-        }
+        result.still = errorOf(still, kLightFrames);
         progress.within(0.9, "light where it moves");
-        RadianceTracer tracer = tracerOf();
+        RadianceTracer moving = tracerOf();
         const auto move = [&](std::uint32_t frame) { show(m_stand - std::min(kLightFrames - 1 - frame, kRunFrames)); };
-        result.flicker_moving = meanWhere(calm, keepLight(tracer, move));
+        result.flicker_moving = meanWhere(calm, keepLight(moving, move));
+        std::uint32_t frame = 0; // since it stands
         for (const std::uint32_t frames : kFramesAfter)
         {
-            for (std::uint32_t frame = result.after.empty() ? 0 : result.after.back().frames; frame < frames; ++frame)
+            for (; frame < frames; ++frame)
             {
-                addFrame(tracer);
+                addFrame(moving);
             }
-            result.after.push_back(errorOf(tracer, frames));
+            result.after.push_back(errorOf(pictureOf(moving), frames));
         }
         return result;
     }
@@ -228,7 +228,7 @@ private:
     // All pictures have the same random numbers, so that only paths that it changes make a difference.
     std::pair<Mask, Mask> findMasks(Progress& progress)
     {
-        const PathOptions options = {.bounces = kPathBounces};
+        const PathOptions options;
         moveAway(true);
         show(m_stand);
         const HdrImage without = smoothed(trace(kPassedSamples, options, progress));
@@ -310,6 +310,7 @@ const Columns<MotionLine>& motionColumns()
         {"of still", 8, [](const Row& row) { return ratioText(row.error.all, row.result.still.all); }},
         {"near %", 6, [](const Row& row) { return motionPercent(row.error.near); }},
         {"of still", 8, [](const Row& row) { return ratioText(row.error.near, row.result.still.near); }},
+        {"lag %", 6, [](const Row& row) { return motionPercent(row.error.lag); }},
         {"FLIP", 6, [](const Row& row) { return fmt::format("{:.4f}", row.error.flip); }},
     };
     return all;
@@ -341,29 +342,37 @@ Json errorJson(const MotionError& error)
     return {{"frames", error.frames},
             {"relative_error", error.all},
             {"near_relative_error", motionNumber(error.near)},
+            {"near_lag", motionNumber(error.lag)},
             {"flip", error.flip}};
 }
 
 } // namespace
 
-std::size_t motionCount(const BenchOptions& options, std::span<const std::filesystem::path> scenes)
+std::vector<MovingScene> loadMovingScenes(const BenchOptions& options, std::span<const std::filesystem::path> paths)
+{
+    std::vector<MovingScene> scenes;
+    for (const std::filesystem::path& path : paths)
+    {
+        scenes.push_back({path.stem().stem().string(), loadSceneFile(options, path)});
+        if (scenes.back().animated.objects.empty())
+        {
+            throw Error(ErrorCode::Input, fmt::format("{}: nothing moves in this scene", path.string()));
+        }
+    }
+    return scenes;
+}
+
+std::size_t motionCount(const BenchOptions& options, std::span<const MovingScene> scenes)
 {
     return 2 * scenes.size() * (options.depths ? options.depths->size() : 1);
 }
 
 std::vector<MotionResult> measureMotion(vk::HeadlessDevice& device, const BenchOptions& options,
-                                        std::span<const std::filesystem::path> scenes, std::uint32_t depth,
-                                        Progress& progress)
+                                        std::span<const MovingScene> scenes, std::uint32_t depth, Progress& progress)
 {
     std::vector<MotionResult> results;
-    for (const std::filesystem::path& path : scenes)
+    for (const auto& [name, animated] : scenes)
     {
-        const std::string name = path.stem().stem().string();
-        const AnimatedScene animated = loadSceneFile(options, path);
-        if (animated.objects.empty())
-        {
-            throw Error(ErrorCode::Input, fmt::format("{}: nothing moves in this scene", path.string()));
-        }
         const Bounds bounds = boundsOverTime(animated);
         for (const std::uint32_t scene_depth : options.depths.value_or(std::vector{depth}))
         {
@@ -378,12 +387,13 @@ std::vector<MotionResult> measureMotion(vk::HeadlessDevice& device, const BenchO
                 {
                     continue;
                 }
-                progress.begin(fmt::format("{} by {}", name, by_day ? "day" : "night"));
+                const char* const light_name = by_day ? "day" : "night";
+                progress.begin(fmt::format("{} by {}", name, light_name));
                 DeviceEnvironment light = lightFor(device, name, by_day);
                 MotionBench bench(device, live, light, traceCamera(view, grid, options.path_height), options);
                 results.push_back(bench.measure(progress));
                 results.back().scene = name;
-                results.back().light = by_day ? "day" : "night";
+                results.back().light = light_name;
             }
         }
     }
@@ -395,8 +405,8 @@ std::string motionText(std::span<const MotionResult> results)
     std::string text =
         fmt::format("It follows: pictures of one frame of light that is kept, {} frames old, in which something has "
                     "moved for {} frames and now stands for those that are named, beside one in which it always stood "
-                    "there. \"near\" is where it changes the light by more than {:.0f} %, there or on its last {} "
-                    "frames' way.\n\n{}",
+                    "there. \"near\" is where it changes the light by more than {:.0f} %, there or on the way of its "
+                    "last {} frames; \"lag\" is the difference from the still picture there.\n\n{}",
                     kLightFrames, kRunFrames, 100 * kNearChange, kLingers, columnNames(motionColumns()));
     for (const MotionResult& result : results)
     {

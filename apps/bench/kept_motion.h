@@ -4,6 +4,7 @@
 #include "bench/bench_options.h"
 #include "common/progress.h"
 #include "common/report.h"
+#include "io/scene/animated_scene.h"
 #include "vk/headless.h"
 
 #include <cstdint>
@@ -23,6 +24,14 @@ struct MotionError
     double all = 0;
     std::optional<double> near; // nothing where no pixel counts
     double flip = 0;
+    std::optional<double> lag; // the mean relative difference from the still picture, where what moves counts
+};
+
+/// A scene file's name, and what it holds.
+struct MovingScene
+{
+    std::string name;
+    AnimatedScene animated;
 };
 
 /// How light that is kept follows what moves: at a place to which it came, beside one at which it always was.
@@ -39,14 +48,16 @@ struct MotionResult
     std::optional<double> flicker_moving;
 };
 
-/// How many results measureMotion() gives, at most.
-std::size_t motionCount(const BenchOptions& options, std::span<const std::filesystem::path> scenes);
+/// Loads scene files. Throws Error{Input}, also where nothing moves.
+std::vector<MovingScene> loadMovingScenes(const BenchOptions& options, std::span<const std::filesystem::path> paths);
 
-/// Measures scene files in which something moves, by day, and at night if there are voxels that give off light. depth:
-/// where options have none. Throws Error.
+/// How many results measureMotion() gives, at most.
+std::size_t motionCount(const BenchOptions& options, std::span<const MovingScene> scenes);
+
+/// Measures scenes by day, and at night if they have voxels that give off light. depth: where options have none. Throws
+/// Error.
 std::vector<MotionResult> measureMotion(vk::HeadlessDevice& device, const BenchOptions& options,
-                                        std::span<const std::filesystem::path> scenes, std::uint32_t depth,
-                                        Progress& progress);
+                                        std::span<const MovingScene> scenes, std::uint32_t depth, Progress& progress);
 
 /// What the results are, and tables of them.
 std::string motionText(std::span<const MotionResult> results);
