@@ -4,7 +4,6 @@
 #include "bench/bench_scenes.h"
 #include "bench/lit_scenes.h"
 #include "bench/picture_quality.h"
-#include "bench/table.h"
 #include "common/view.h"
 #include "core/light/light_tree.h"
 #include "core/path/path_tracer.h"
@@ -25,19 +24,12 @@ namespace zvo::cli
 namespace
 {
 
-constexpr std::uint32_t kLightFrames = 256;  // of light before pictures, with or without a movement at their end
-constexpr std::uint32_t kRunFrames = 60;     // of the movement
-constexpr std::uint32_t kFlickerFrames = 32; // the last of either
 constexpr std::array<std::uint32_t, 5> kFramesAfter = {0, 4, 8, 16, 32};
 
-// Where what moves is looked for, in frames before it stands: all that it passes while flicker is measured, and where
-// its light may linger when it stands.
-constexpr std::array<std::uint32_t, 6> kPassed = {0, 8, 16, 24, 32, kRunFrames};
-constexpr std::uint32_t kLingers = 16;
+// Where what moves is looked for, in frames before it stands: all that it passes while flicker is measured.
+constexpr std::array<std::uint32_t, 6> kPassed = {0, 8, 16, 24, kFlickerFrames, kRunFrames};
 constexpr std::uint32_t kPassedSamples = 48; // a pixel of pictures that find it
-constexpr int kPassedRadius = 2;             // pixels around, over whose mean changes are looked for
-constexpr double kNearChange = 0.05;
-constexpr double kCalmChange = 0.02;
+constexpr int kSmoothRadius = 2;             // pixels around, over whose mean it is looked for
 constexpr std::uint32_t kPathBounces = 32;
 
 using Values = std::vector<double>;
@@ -73,9 +65,9 @@ HdrImage smoothed(const HdrImage& picture)
         {
             glm::dvec3 sum(0.0);
             double count = 0;
-            for (int v = std::max(y - kPassedRadius, 0); v <= std::min(y + kPassedRadius, height - 1); ++v)
+            for (int v = std::max(y - kSmoothRadius, 0); v <= std::min(y + kSmoothRadius, height - 1); ++v)
             {
-                for (int u = std::max(x - kPassedRadius, 0); u <= std::min(x + kPassedRadius, width - 1); ++u)
+                for (int u = std::max(x - kSmoothRadius, 0); u <= std::min(x + kSmoothRadius, width - 1); ++u)
                 {
                     sum += picture.texels[static_cast<std::size_t>(v * width + u)];
                     ++count;
@@ -137,14 +129,14 @@ public:
 
     MotionResult measure(Progress& progress)
     {
-        const auto [near, calm] = findMasks(progress);
+        const auto [near, calm] = findMasks();
         MotionResult result;
         result.resolution = m_live.tree().grid.resolution();
         result.near_share = shareOf(near);
         result.calm_share = shareOf(calm);
         show(m_stand);
-        const HdrImage reference = trace(m_options.reference_samples, {.bounces = kPathBounces, .seed = 1}, progress);
-        progress.within(0.8, "light where it stands");
+        const HdrImage reference = trace(m_options.reference_samples, {.bounces = kPathBounces, .seed = 1},
+                                         [&](double done) { progress.within(0.2 + 0.6 * done); });
         RadianceTracer standing = tracerOf();
         result.flicker_still = meanWhere(calm, keepLight(standing, [](std::uint32_t) {}));
         const HdrImage still = pictureOf(standing);
@@ -155,7 +147,7 @@ public:
                                meanWhere(near, relativeErrors(still, picture))};
         };
         result.still = errorOf(still, kLightFrames);
-        progress.within(0.9, "light where it moves");
+        progress.within(0.9);
         RadianceTracer moving = tracerOf();
         const auto move = [&](std::uint32_t frame) { show(m_stand - std::min(kLightFrames - 1 - frame, kRunFrames)); };
         result.flicker_moving = meanWhere(calm, keepLight(moving, move));
@@ -211,7 +203,7 @@ private:
         return flicker.relative();
     }
 
-    HdrImage trace(std::uint32_t samples, const PathOptions& options, Progress& progress)
+    template <typename Told> HdrImage trace(std::uint32_t samples, const PathOptions& options, const Told& told)
     {
         PathTracer tracer(m_device.device());
         tracer.resize(m_options.path_width, m_options.path_height);
@@ -219,26 +211,26 @@ private:
         {
             m_device.run([&](vk::FrameGraph& graph)
                          { tracer.addSample(graph, m_live.tree(), m_light, m_camera, options); });
-            progress.within(0.2 + 0.6 * i / samples, fmt::format("{}/{} samples", i + 1, samples));
+            told(static_cast<double>(i + 1) / samples);
         }
         return pictureOf(tracer);
     }
 
     // The pixels in which what moves counts where it stands or was shortly before, and those in which it never does.
     // All pictures have the same random numbers, so that only paths that it changes make a difference.
-    std::pair<Mask, Mask> findMasks(Progress& progress)
+    std::pair<Mask, Mask> findMasks()
     {
-        const PathOptions options;
+        const auto smoothPicture = [&] { return smoothed(trace(kPassedSamples, {}, [](double) {})); };
         moveAway(true);
         show(m_stand);
-        const HdrImage without = smoothed(trace(kPassedSamples, options, progress));
+        const HdrImage without = smoothPicture();
         moveAway(false);
         Mask near(without.texels.size(), false);
         Mask calm(without.texels.size(), true);
         for (const std::uint32_t frames : kPassed)
         {
             show(m_stand - frames);
-            const Values changes = relativeErrors(without, smoothed(trace(kPassedSamples, options, progress)));
+            const Values changes = relativeErrors(without, smoothPicture());
             for (std::size_t i = 0; i < changes.size(); ++i)
             {
                 near[i] = near[i] || (frames <= kLingers && changes[i] > kNearChange);
@@ -272,79 +264,6 @@ private:
     const BenchOptions& m_options;
     std::uint64_t m_stand; // the frame of the scene's time in which what moves stands
 };
-
-// A line of the table of errors.
-struct MotionLine
-{
-    const MotionResult& result;
-    const MotionError& error;
-};
-
-std::string motionPercent(const std::optional<double>& value)
-{
-    return value ? fmt::format("{:.2f}", 100.0 * *value) : "-";
-}
-
-std::optional<double> ratioOf(const std::optional<double>& value, const std::optional<double>& to)
-{
-    return value && to && *to > 0 ? std::optional(*value / *to) : std::nullopt;
-}
-
-std::string ratioText(const std::optional<double>& value, const std::optional<double>& to)
-{
-    const std::optional<double> ratio = ratioOf(value, to);
-    return ratio ? fmt::format("{:.2f}", *ratio) : "-";
-}
-
-const Columns<MotionLine>& motionColumns()
-{
-    using Row = MotionLine;
-    static const Columns<Row> all = {
-        {"scene", 12, [](const Row& row) { return row.result.scene; }},
-        {"resolution", 10, [](const Row& row) { return fmt::format("{}", row.result.resolution); }},
-        {"light", 5, [](const Row& row) { return row.result.light; }},
-        {"frames", 6,
-         [](const Row& row)
-         { return &row.error == &row.result.still ? "still" : fmt::format("{}", row.error.frames); }},
-        {"error %", 7, [](const Row& row) { return motionPercent(row.error.all); }},
-        {"of still", 8, [](const Row& row) { return ratioText(row.error.all, row.result.still.all); }},
-        {"near %", 6, [](const Row& row) { return motionPercent(row.error.near); }},
-        {"of still", 8, [](const Row& row) { return ratioText(row.error.near, row.result.still.near); }},
-        {"lag %", 6, [](const Row& row) { return motionPercent(row.error.lag); }},
-        {"FLIP", 6, [](const Row& row) { return fmt::format("{:.4f}", row.error.flip); }},
-    };
-    return all;
-}
-
-const Columns<MotionResult>& flickerColumns()
-{
-    using Row = MotionResult;
-    static const Columns<Row> all = {
-        {"scene", 12, [](const Row& row) { return row.scene; }},
-        {"resolution", 10, [](const Row& row) { return fmt::format("{}", row.resolution); }},
-        {"light", 5, [](const Row& row) { return row.light; }},
-        {"near pixels %", 13, [](const Row& row) { return motionPercent(row.near_share); }},
-        {"calm pixels %", 13, [](const Row& row) { return motionPercent(row.calm_share); }},
-        {"flicker %", 9, [](const Row& row) { return motionPercent(row.flicker_still); }},
-        {"moving %", 8, [](const Row& row) { return motionPercent(row.flicker_moving); }},
-        {"of still", 8, [](const Row& row) { return ratioText(row.flicker_moving, row.flicker_still); }},
-    };
-    return all;
-}
-
-Json motionNumber(const std::optional<double>& value)
-{
-    return value ? Json(*value) : Json(nullptr);
-}
-
-Json errorJson(const MotionError& error)
-{
-    return {{"frames", error.frames},
-            {"relative_error", error.all},
-            {"near_relative_error", motionNumber(error.near)},
-            {"near_lag", motionNumber(error.lag)},
-            {"flip", error.flip}};
-}
 
 } // namespace
 
@@ -398,58 +317,6 @@ std::vector<MotionResult> measureMotion(vk::HeadlessDevice& device, const BenchO
         }
     }
     return results;
-}
-
-std::string motionText(std::span<const MotionResult> results)
-{
-    std::string text =
-        fmt::format("It follows: pictures of one frame of light that is kept, {} frames old, in which something has "
-                    "moved for {} frames and now stands for those that are named, beside one in which it always stood "
-                    "there. \"near\" is where it changes the light by more than {:.0f} %, there or on the way of its "
-                    "last {} frames; \"lag\" is the difference from the still picture there.\n\n{}",
-                    kLightFrames, kRunFrames, 100 * kNearChange, kLingers, columnNames(motionColumns()));
-    for (const MotionResult& result : results)
-    {
-        text += columnValues(motionColumns(), {result, result.still});
-        for (const MotionError& error : result.after)
-        {
-            text += columnValues(motionColumns(), {result, error});
-        }
-    }
-    text += fmt::format("\nFlicker: the standard deviation over {} frames, beside the mean, of pixels that what moves "
-                        "changes by less than {:.0f} %; while it stands, and while it moves.\n\n{}",
-                        kFlickerFrames, 100 * kCalmChange, columnNames(flickerColumns()));
-    for (const MotionResult& result : results)
-    {
-        text += columnValues(flickerColumns(), result);
-    }
-    return text;
-}
-
-Json motionJson(std::span<const MotionResult> results)
-{
-    Json json = Json::array();
-    for (const MotionResult& result : results)
-    {
-        Json entry = {{"scene", result.scene},           {"resolution", result.resolution},
-                      {"light", result.light},           {"light_frames", kLightFrames},
-                      {"run_frames", kRunFrames},        {"near_share", result.near_share},
-                      {"calm_share", result.calm_share}, {"still", errorJson(result.still)}};
-        entry["after"] = Json::array();
-        for (const MotionError& error : result.after)
-        {
-            Json after = errorJson(error);
-            after["of_still"] = motionNumber(ratioOf(error.all, result.still.all));
-            after["near_of_still"] = motionNumber(ratioOf(error.near, result.still.near));
-            entry["after"].push_back(std::move(after));
-        }
-        entry["flicker"] = {{"frames", kFlickerFrames},
-                            {"still", motionNumber(result.flicker_still)},
-                            {"moving", motionNumber(result.flicker_moving)},
-                            {"of_still", motionNumber(ratioOf(result.flicker_moving, result.flicker_still))}};
-        json.push_back(std::move(entry));
-    }
-    return json;
 }
 
 } // namespace zvo::cli

@@ -17,6 +17,13 @@
 namespace zvo::cli
 {
 
+inline constexpr std::uint32_t kLightFrames = 256;  // of light before pictures, whether something moves or not
+inline constexpr std::uint32_t kRunFrames = 60;     // the last of them, in which it moves
+inline constexpr std::uint32_t kFlickerFrames = 32; // the last of them, in which flicker is measured
+inline constexpr std::uint32_t kLingers = 16;       // the last of them, whose light may linger
+inline constexpr double kNearChange = 0.05;         // of light, where what moves counts
+inline constexpr double kCalmChange = 0.02;         // of light, where it does not
+
 /// The mean relative error of a picture of one frame of kept light: over all pixels, and where what moves counts.
 struct MotionError
 {
