@@ -137,8 +137,9 @@ public:
         show(m_stand);
         const HdrImage reference = trace(m_options.reference_samples, {.bounces = kPathBounces, .seed = 1},
                                          [&](double done) { progress.within(0.2 + 0.6 * done); });
+        const auto stand = [](std::uint32_t) {};
         RadianceTracer standing = tracerOf();
-        result.flicker_still = meanWhere(calm, keepLight(standing, [](std::uint32_t) {}));
+        result.flicker_still = meanWhere(calm, keepLight(standing, {}, stand));
         const HdrImage still = pictureOf(standing);
         const auto errorOf = [&, &near = near](const HdrImage& picture, std::uint32_t frames)
         {
@@ -147,16 +148,20 @@ public:
                                meanWhere(near, relativeErrors(still, picture))};
         };
         result.still = errorOf(still, kLightFrames);
+        const RadianceOptions other = {.seed = 1}; // noise that has nothing to do with that of the still picture
+        RadianceTracer beside = tracerOf();
+        keepLight(beside, other, stand);
+        result.still.lag = meanWhere(near, relativeErrors(still, pictureOf(beside)));
         progress.within(0.9);
         RadianceTracer moving = tracerOf();
         const auto move = [&](std::uint32_t frame) { show(m_stand - std::min(kLightFrames - 1 - frame, kRunFrames)); };
-        result.flicker_moving = meanWhere(calm, keepLight(moving, move));
+        result.flicker_moving = meanWhere(calm, keepLight(moving, other, move));
         std::uint32_t frame = 0; // since it stands
         for (const std::uint32_t frames : kFramesAfter)
         {
             for (; frame < frames; ++frame)
             {
-                addFrame(moving);
+                addFrame(moving, other);
             }
             result.after.push_back(errorOf(pictureOf(moving), frames));
         }
@@ -181,20 +186,21 @@ private:
         return tracer;
     }
 
-    void addFrame(RadianceTracer& tracer)
+    void addFrame(RadianceTracer& tracer, const RadianceOptions& options)
     {
         tracer.beginPicture(); // as a window does where something moves
-        m_device.run([&](vk::FrameGraph& graph) { tracer.addFrame(graph, m_live.tree(), m_light, m_camera, {}); });
+        m_device.run([&](vk::FrameGraph& graph) { tracer.addFrame(graph, m_live.tree(), m_light, m_camera, options); });
     }
 
     // Brings light up to date. before: called before each frame. Returns the flicker of each pixel in the last frames.
-    template <typename Before> Values keepLight(RadianceTracer& tracer, const Before& before)
+    template <typename Before>
+    Values keepLight(RadianceTracer& tracer, const RadianceOptions& options, const Before& before)
     {
         Flicker flicker;
         for (std::uint32_t frame = 0; frame < kLightFrames; ++frame)
         {
             before(frame);
-            addFrame(tracer);
+            addFrame(tracer, options);
             if (frame >= kLightFrames - kFlickerFrames)
             {
                 flicker.add(pictureOf(tracer));

@@ -31,7 +31,7 @@ struct MotionError
     double all = 0;
     std::optional<double> near; // nothing where no pixel counts
     double flip = 0;
-    std::optional<double> lag; // the mean relative difference from the still picture, where what moves counts
+    std::optional<double> lag; // mean relative difference from the still picture, likewise; of itself, with other noise
 };
 
 /// A scene file's name, and what it holds.

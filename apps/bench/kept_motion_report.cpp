@@ -94,7 +94,8 @@ std::string motionText(std::span<const MotionResult> results)
         fmt::format("It follows: pictures of one frame of light that is kept, {} frames old, in which something has "
                     "moved for {} frames and now stands for those that are named, beside one in which it always stood "
                     "there. \"near\" is where it changes the light by more than {:.0f} %, there or on the way of its "
-                    "last {} frames; \"lag\" is the difference from the still picture there.\n\n{}",
+                    "last {} frames; \"lag\" is the difference from the still picture there, and of that one from "
+                    "another with other noise.\n\n{}",
                     kLightFrames, kRunFrames, 100 * kNearChange, kLingers, columnNames(motionColumns()));
     for (const MotionResult& result : results)
     {

@@ -169,7 +169,7 @@ TEST_F(CliCached, IsMeasuredWhereSomethingMoves)
     EXPECT_LT(motion["near_share"].get<double>() + motion["calm_share"].get<double>(), 1.0);
     EXPECT_GT(motion["still"]["near_relative_error"], 0.0);
     EXPECT_LT(motion["still"]["near_relative_error"], 0.5);
-    EXPECT_EQ(motion["still"]["near_lag"], 0.0) << "a picture beside itself";
+    EXPECT_GT(motion["still"]["near_lag"], 0.0) << "other noise";
     ASSERT_EQ(motion["after"].size(), 5U);
     EXPECT_EQ(motion["after"][0]["frames"], 0);
     EXPECT_EQ(motion["after"][4]["frames"], 32);
@@ -181,6 +181,7 @@ TEST_F(CliCached, IsMeasuredWhereSomethingMoves)
         EXPECT_LT(after["flip"], 1.0);
     }
     EXPECT_GT(motion["after"][0]["near_lag"], motion["after"][4]["near_lag"]);
+    EXPECT_GT(motion["after"][0]["near_lag"], motion["still"]["near_lag"]);
     EXPECT_GT(motion["flicker"]["still"], 0.0);
     EXPECT_LT(motion["flicker"]["moving"], 0.5);
     EXPECT_GE(motion["flicker"]["of_still"], 0.5);
