@@ -99,15 +99,28 @@ public:
 
     template <typename Told> HdrImage reference(std::uint32_t samples, const Told& told)
     {
-        m_reference_samples = samples;
         PathTracer tracer(m_device.device());
         tracer.resize(m_width, m_height);
+        const std::uint32_t half_samples = samples / 2;
+        HdrImage half;
         for (std::uint32_t i = 0; i < samples; ++i)
         {
             addPath(tracer, {.bounces = kReferenceBounces, .seed = 1});
+            if (i + 1 == half_samples)
+            {
+                half = imageOf(tracer.picture());
+            }
             told(i + 1);
         }
-        return imageOf(tracer.picture());
+        HdrImage reference = imageOf(tracer.picture());
+        if (half_samples != 0)
+        {
+            // The two halves of an even number of samples are twice as far apart as the whole is from either, and that
+            // as far as it is from what it would become.
+            m_noise = meanOf(relativeErrors(reference, half)) *
+                      std::sqrt(static_cast<double>(half_samples) / (samples - half_samples));
+        }
+        return reference;
     }
 
     /// Primary rays with a ray to the sun.
@@ -145,14 +158,9 @@ public:
             }
             KeptRow row = rowOf("path", count);
             row.quality = compareTo(reference, imageOf(tracer.picture()));
+            row.noise = m_noise;
             setTimes(row, ms);
             rows.push_back(row);
-        }
-        // The error of paths falls with the square root of their number, and both pictures have their share of it.
-        const double share = static_cast<double>(counts.back()) / (counts.back() + m_reference_samples);
-        for (KeptRow& row : rows)
-        {
-            row.noise = rows.back().quality->relative * std::sqrt(share);
         }
         return rows;
     }
@@ -181,8 +189,9 @@ public:
             }
             KeptRow row = rowOf("cached", count);
             row.quality = compareTo(reference, imageOf(tracer.picture()));
+            row.noise = m_noise;
             setTimes(row, ms);
-            row.noise = path.noise;
+            // The error of paths falls with the square root of their number.
             row.paths_of_error = path.count * std::pow(path.quality->relative / row.quality->relative, 2.0);
             row.bytes_of_voxel =
                 static_cast<double>(tracer.cache().bytes()) / static_cast<double>(m_scene.tree.voxel_count);
@@ -229,7 +238,7 @@ private:
     const LitScene& m_scene;
     std::uint32_t m_width;
     std::uint32_t m_height;
-    std::uint32_t m_reference_samples = 0;
+    std::optional<double> m_noise; // of the reference
     TraceCamera m_camera;
 };
 
@@ -251,7 +260,7 @@ Json keptReportJson(const vk::DeviceReport& device, const BenchOptions& options,
         if (row.quality)
         {
             entry["relative_error"] = row.quality->relative;
-            entry["reference_error"] = *row.noise;
+            entry["reference_error"] = row.noise ? Json(*row.noise) : Json(nullptr);
             entry["psnr_db"] = row.quality->psnr_db;
             entry["ssim"] = row.quality->ssim;
             entry["flip"] = row.quality->flip;
