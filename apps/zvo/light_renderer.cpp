@@ -82,7 +82,7 @@ DeviceEnvironment makeEnvironment(vk::HeadlessDevice& device, const RenderOption
 LightRenderer::LightRenderer(vk::HeadlessDevice& device, const RenderOptions& options)
     : m_device(device), m_options(options), m_tracer(device.device()), m_environment(makeEnvironment(device, options))
 {
-    if (options.integrator == Integrator::Cached)
+    if (keepsLight(options.integrator))
     {
         m_kept.emplace(device.device());
     }
@@ -99,6 +99,7 @@ void LightRenderer::addSample(vk::FrameGraph& graph, const DeviceTree& tree)
     {
         RadianceOptions kept = m_options.kept.radiance;
         kept.seed = m_options.paths.path.seed;
+        kept.view = m_options.integrator == Integrator::Cones ? KeptView::Cones : KeptView::Faces;
         m_kept->addFrame(graph, tree, m_environment, *m_camera, kept);
         return;
     }

@@ -23,7 +23,8 @@
 namespace zvo::cli
 {
 
-/// How a picture is path traced. Environment, samples and time limit count for Integrator::Cached, too.
+/// How a picture is path traced. Environment, samples and time limit count for the others with
+/// samples, too.
 struct PathRenderOptions
 {
     PathOptions path;
@@ -59,8 +60,8 @@ struct RenderOptions
     std::optional<float> exposure;                                // none: 1, or for paths by the picture's brightness
     float detail_pixels = TraceOptions().detail_pixels;           // rays stop at octree nodes up to this wide
     Integrator integrator = Integrator::Primary;
-    PathRenderOptions paths;                                       // Integrator::Path and Cached
-    KeptRenderOptions kept;                                        // Integrator::Cached
+    PathRenderOptions paths;                                       // Integrator::Path, Cached and Cones
+    KeptRenderOptions kept;                                        // Integrator::Cached and Cones
     std::optional<std::pair<std::uint32_t, std::uint32_t>> frames; // first and last
     std::optional<TreeStructure> structure; // of the static part; not given: an octree, or the file's
     bool rebuild = false;                   // voxelizes everything for each picture, instead of merging dynamic objects
@@ -69,10 +70,7 @@ struct RenderOptions
     [[nodiscard]] bool hasSamples() const { return integrator != Integrator::Primary; }
 
     /// The samples of a pixel: paths, or frames.
-    [[nodiscard]] std::uint32_t sampleCount() const
-    {
-        return paths.samples.value_or(integrator == Integrator::Cached ? 16 : 64);
-    }
+    [[nodiscard]] std::uint32_t sampleCount() const { return paths.samples.value_or(keepsLight(integrator) ? 16 : 64); }
 };
 
 struct VoxelizeOptions

@@ -276,8 +276,8 @@ void checkIntegratorOptions(const RenderOptions& options)
 {
     using Integrators = std::initializer_list<Integrator>;
     const Integrators of_paths = {Integrator::Path};
-    const Integrators of_kept = {Integrator::Cached};
-    const Integrators of_samples = {Integrator::Path, Integrator::Cached};
+    const Integrators of_kept = {Integrator::Cached, Integrator::Cones};
+    const Integrators of_samples = {Integrator::Path, Integrator::Cached, Integrator::Cones};
     const Integrators of_primary = {Integrator::Primary};
     const RenderOptions plain;
     const PathRenderOptions& paths = options.paths;

@@ -90,7 +90,7 @@ std::optional<std::vector<std::uint8_t>> Renderer::renderLight(const ViewCamera&
     }
     catch (const Error& error)
     {
-        if (error.code() != ErrorCode::Memory || m_options.integrator != Integrator::Cached ||
+        if (error.code() != ErrorCode::Memory || !keepsLight(m_options.integrator) ||
             extensionOf(m_options.output.path) != ".png")
         {
             throw;

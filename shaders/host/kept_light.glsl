@@ -210,3 +210,20 @@ vec4 zvo_gatherIrradiance(KeptLightTable_ConstPtr light, TreeTable_ConstPtr tree
     }
     return vec4(irradiance, sum.w / float(count));
 }
+
+#ifdef ZVO_DETAIL
+#include "host/cone.glsl"
+
+// The light that comes to a point through a cone, and from outside of the grid through the share of it that has met
+// nothing within a reach in world units: the mean over the cone, of nodes as wide as it, which keep light as bricks. It
+// has no sun. direction: of the axis, of any length. aperture: radians from rim to rim, less than pi. seed: of the rays
+// that find how much of a node emits, of which the mean over seeds is right. w: that share.
+vec4 zvo_cone(KeptLightTable_ConstPtr light, TreeTable_ConstPtr tree, vec3 origin, vec3 direction, float aperture,
+              float reach, uint seed)
+{
+    if (!setKeptLight(light))
+        return vec4(0.0);
+    vec4 found = lightThroughCone(tree, origin, normalize(direction), tan(0.5 * aperture), reach, seed);
+    return vec4(found.rgb + found.w * zvo_outside(light, direction), found.w);
+}
+#endif

@@ -34,6 +34,7 @@
 //   radiance/fold      adds the sums to the means of bricks of a level, and to the sums of the next level
 //   radiance/purge     into another table, without faces that no ray has hit for long; only while something moves
 //   radiance/view, radiance/direct         what the camera sees of it, and of lamps and the sky
+//   radiance/cones     in place of what it reflects in radiance/view: light through a cone, once for each of six
 //
 // Kernels read what the frame before has kept; only radiance/apply and radiance/fold write, and sums of samples are
 // integers. So what comes out does not depend on the order of threads, though the places of faces in the table, and in
@@ -75,7 +76,8 @@ struct BrickSum
 GPU_BUFFER(BrickSum, 4);
 
 const uint kSpreadShift = 14u;
-const uint kBrickFaces = 4u; // what means of bricks count in samples, over what those of faces do
+const uint kDiffuseCones = 6u; // through which radiance/cones gathers light
+const uint kBrickFaces = 4u;   // what means of bricks count in samples, over what those of faces do
 
 // How many samples of a face the light between bricks weighs as much as, at most, and how many times so many a face has
 // when it counts alone.
@@ -289,6 +291,29 @@ GPU_KERNEL_BEGIN(radiance, view, View, RadianceViewParams)
     GPU_CONSTANT(bool, orthographic, false)
     GPU_CONSTANT(AttributeFormat, format, kFormat8)
     GPU_CONSTANT(bool, emission, false)
+    GPU_CONSTANT(bool, reflects, true)
+GPU_KERNEL_END
+
+struct RadianceConesParams // push constants of radiance/cones: a thread a pixel, in the order of path/path.h
+{
+    GPU_CONST_PTR(TreeTable) tree;
+    GPU_CONST_PTR(KeptFace) faces;
+    GPU_CONST_PTR(Environment) environment;
+    GPU_CONST_PTR(Hit) hits;
+    GPU_CONST_PTR(float) starts; // of tiles
+    GPU_PTR(PixelSum) sums;
+    CameraRays camera;
+    uint width;
+    uint height;
+    uint run_count;
+    uint cone; // of kDiffuseCones
+    uint frame;
+    uint seed;
+};
+GPU_KERNEL_BEGIN(radiance, cones, Cones, RadianceConesParams)
+    GPU_CONSTANT(uint, tree_node_levels, 5u)
+    GPU_CONSTANT(uint, tree_entries_per_word, 0u)
+    GPU_CONSTANT(bool, orthographic, false)
 GPU_KERNEL_END
 
 struct RadianceDirectParams // push constants of radiance/direct: a thread a pixel that sees light directly

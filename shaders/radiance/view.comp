@@ -19,6 +19,7 @@ layout(constant_id = 0) const uint kNodeLevels = 5u;
 layout(constant_id = 1) const bool kOrthographic = false;
 layout(constant_id = 2) const uint kFormat = kFormat8; // of attributes
 layout(constant_id = 3) const bool kEmission = false;  // there are emissive voxels
+layout(constant_id = 4) const bool kReflects = true;   // false: pixels are only listed
 
 layout(local_size_x = kRadianceGroup) in;
 layout(push_constant, scalar) uniform Push
@@ -53,7 +54,7 @@ void main()
     uint place = appendTo(0u, kListMisses, is_direct);
     if (is_direct)
         params.direct.data[place] = number;
-    if (!exists || !hits || hitFace(hit) == kFaceInside)
+    if (!kReflects || !exists || !hits || hitFace(hit) == kFaceInside)
         return;
 
     vec3 offset = rayOffset(pixelOffset(pixel, size), params.camera.half_pixel_x, params.camera.half_pixel_y);

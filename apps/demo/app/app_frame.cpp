@@ -108,7 +108,7 @@ bool App::prepare(const Picture& picture)
     }
     catch (const Error& error)
     {
-        if (error.code() == ErrorCode::Memory && picture.view.shownIntegrator() == Integrator::Cached)
+        if (error.code() == ErrorCode::Memory && keepsLight(picture.view.shownIntegrator()))
         {
             m_view.integrator = Integrator::Primary; // from the next frame on
             cli::talk(fmt::format("warning: no light is kept on voxels: {}", error.what()));

@@ -62,7 +62,7 @@ void readViewState(const JsonCursor& object, ViewState& view)
     with(object, "view", [&](const JsonCursor& value) { view.view = readView(value); });
     with(object, "integrator",
          [&](const JsonCursor& value) {
-             view.integrator = static_cast<Integrator>(value.oneOf({"primary", "path", "cached"}));
+             view.integrator = static_cast<Integrator>(value.oneOf({"primary", "path", "cached", "cones"}));
          });
     with(object, "denoise", [&](const JsonCursor& value) { view.denoise = value.flag(); });
     with(object, "shadows", [&](const JsonCursor& value) { view.shadows = value.flag(); });

@@ -44,8 +44,8 @@ std::uint64_t Renderer::pictureBytes() const
     if (m_light != nullptr)
     {
         light_bytes = m_light->developer.bytes() + m_light->image.bytes() +
-                      (m_light->integrator == Integrator::Cached ? m_light->kept.bytes()
-                                                                 : m_light->tracer.bytes() + m_light->denoiser.bytes());
+                      (keepsLight(m_light->integrator) ? m_light->kept.bytes()
+                                                       : m_light->tracer.bytes() + m_light->denoiser.bytes());
     }
     return m_tracer.buffers().bytes() + m_compose->bytes() + light_bytes;
 }
@@ -72,7 +72,7 @@ void Renderer::prepareLight(const DeviceTree& tree, const Picture& picture)
         vk::BufferOf<gpu::uint> image(m_device.device(), "path picture", pixel_count);
         m_deletion_queue.keep(std::exchange(m_light->image, std::move(image)));
     }
-    if (integrator == Integrator::Cached)
+    if (keepsLight(integrator))
     {
         m_light->kept.resize(picture.internal.width, picture.internal.height);
         m_light->kept.reserve(tree, {});
@@ -91,14 +91,16 @@ void Renderer::traceLight(vk::FrameGraph& graph, const DeviceTree& tree, const T
     const ViewState& view = picture.view;
     const double strength = view.shadows ? TraceOptions().sun : 0.0;
     m_light->sky.setSun({.direction = view.to_sun, .irradiance = strength * kSunColor});
-    if (m_light->integrator == Integrator::Cached)
+    if (keepsLight(m_light->integrator))
     {
         if (picture.edited)
         {
             m_light->kept.cache().noteChange();
         }
         m_light->kept.beginPicture();
-        m_light->kept.addFrame(graph, tree, m_light->sky, camera, {});
+        RadianceOptions kept;
+        kept.view = m_light->integrator == Integrator::Cones ? KeptView::Cones : KeptView::Faces;
+        m_light->kept.addFrame(graph, tree, m_light->sky, camera, kept);
         m_light->developer.develop(graph, m_light->kept.picture(), TexelFormat::Rgba8, {.factor = view.exposure},
                                    m_light->image);
         return;
@@ -128,7 +130,7 @@ std::optional<std::uint32_t> Renderer::sampleCount() const
 
 std::optional<std::uint32_t> Renderer::keptFrames() const
 {
-    return integrator() == Integrator::Cached ? std::optional(m_light->kept.cache().frameCount()) : std::nullopt;
+    return keepsLight(integrator()) ? std::optional(m_light->kept.cache().frameCount()) : std::nullopt;
 }
 
 std::uint64_t Renderer::rayListElements(const ViewState& view) const

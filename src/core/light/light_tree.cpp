@@ -2,6 +2,7 @@
 #include "core/light/light_tree.h"
 
 #include "core/base/divide_up.h"
+#include "core/tree/tree_table.h"
 #include "vk/device.h"
 
 #include <algorithm>
@@ -33,26 +34,6 @@ std::uint64_t nodeCapacity(const DeviceTree& tree)
 std::uint64_t brickCapacity(const DeviceTree& tree)
 {
     return levelCapacity(tree, tree.grid.nodeLevels() - 1);
-}
-
-// Declares that pass reads all that the kernels take from the table of tree.
-gpu::ConstPtr<gpu::TreeTable> readTree(vk::AnyPass& pass, const DeviceTree& tree,
-                                       const vk::BufferOf<gpu::TreeTable>& table)
-{
-    pass.read(tree.nodes);
-    pass.read(tree.emission_words);
-    pass.read(tree.emission);
-    pass.read(tree.node_attributes);
-    if (tree.isDag())
-    {
-        pass.read(tree.lists.before);
-        pass.read(tree.lists.voxels_before_leaf);
-    }
-    if (tree.overlays.hasRanks())
-    {
-        pass.read(tree.overlays.ranks);
-    }
-    return pass.read(table);
 }
 
 } // namespace

@@ -2,6 +2,7 @@
 #include "core/radiance/radiance_cache.h"
 
 #include "core/base/divide_up.h"
+#include "core/tree/tree_table.h"
 #include "vk/device.h"
 
 #include <algorithm>
@@ -441,7 +442,8 @@ void RadianceCache::fold(vk::FrameGraph& graph, const Work& work, std::uint32_t 
 }
 
 void RadianceCache::view(vk::FrameGraph& graph, const DeviceTree& tree, const DeviceEnvironment& environment,
-                         const TraceCamera& camera, const TraceBuffers& seen, vk::BufferOf<gpu::PixelSum>& sums)
+                         const TraceCamera& camera, const TraceBuffers& seen, vk::BufferOf<gpu::PixelSum>& sums,
+                         const RadianceOptions& options)
 {
     const bool emits = hasEmission(tree);
     Frame& buffers = *m_buffers;
@@ -459,7 +461,8 @@ void RadianceCache::view(vk::FrameGraph& graph, const DeviceTree& tree, const De
         vk::Pass pass = graph.addPass(gpu::radiance::View{.node_levels = tree.grid.nodeLevels(),
                                                           .orthographic = camera.orthographic,
                                                           .format = tree.attributeFormat(),
-                                                          .emission = emits});
+                                                          .emission = emits,
+                                                          .reflects = options.view == KeptView::Faces});
         gpu::RadianceViewParams params{};
         params.faces = pass.read(m_table->faces);
         params.hits = pass.read(seen.hits);
@@ -477,6 +480,10 @@ void RadianceCache::view(vk::FrameGraph& graph, const DeviceTree& tree, const De
         params.height = seen.height;
         params.run_count = m_table->run_count;
         pass.dispatch(pixels, params);
+    }
+    if (options.view == KeptView::Cones)
+    {
+        traceCones(graph, tree, environment, camera, seen, sums, options.seed);
     }
     vk::Pass pass = graph.addPass(gpu::radiance::Direct{.orthographic = camera.orthographic, .emission = emits});
     gpu::RadianceDirectParams params{};
@@ -499,6 +506,35 @@ void RadianceCache::view(vk::FrameGraph& graph, const DeviceTree& tree, const De
     params.height = seen.height;
     pass.dispatchIndirect(buffers.direct_lists, listArgs(0, gpu::kListMisses), params,
                           divideUp(pixels, gpu::kPathGroup));
+}
+
+// Records the passes that add what pixels reflect of the light through cones.
+void RadianceCache::traceCones(vk::FrameGraph& graph, const DeviceTree& tree, const DeviceEnvironment& environment,
+                               const TraceCamera& camera, const TraceBuffers& seen, vk::BufferOf<gpu::PixelSum>& sums,
+                               std::uint32_t seed)
+{
+    for (std::uint32_t cone = 0; cone < gpu::kDiffuseCones; ++cone)
+    {
+        vk::Pass pass = graph.addPass(gpu::radiance::Cones{.tree_node_levels = tree.grid.nodeLevels(),
+                                                           .tree_entries_per_word = tree.entriesPerWord(),
+                                                           .orthographic = camera.orthographic});
+        gpu::RadianceConesParams params{};
+        params.tree = readTree(pass, tree, m_lights.table());
+        readVoxelAttributes(pass, tree);
+        params.faces = pass.read(m_table->faces);
+        params.environment = environment.read(pass);
+        params.hits = pass.read(seen.hits);
+        params.starts = pass.read(seen.starts);
+        params.sums = pass.readWrite(sums);
+        params.camera = camera.rays;
+        params.width = seen.width;
+        params.height = seen.height;
+        params.run_count = m_table->run_count;
+        params.cone = cone;
+        params.frame = m_frame;
+        params.seed = seed;
+        pass.dispatch(std::uint64_t{seen.width} * seen.height, params);
+    }
 }
 
 } // namespace zvo

@@ -19,12 +19,20 @@
 namespace zvo
 {
 
+/// How a picture shows light that is kept.
+enum class KeptView : std::uint8_t
+{
+    Faces, ///< that of the faces that are seen
+    Cones, ///< what comes to them through six cones (C. Crassin et al., 2011), to compare with
+};
+
 /// Options of the light that is kept on voxels.
 struct RadianceOptions
 {
     std::uint32_t faces = 1U << 15;             // the most that a frame takes: each takes a ray and a shadow ray
     std::uint32_t window = gpu::kKeptWeightMax; // the most samples that a mean counts
     std::uint32_t seed = 0;
+    KeptView view = KeptView::Faces;
     std::optional<TraceStack> stack = std::nullopt; // as in TraceOptions
 
     bool operator==(const RadianceOptions&) const = default;
@@ -61,9 +69,11 @@ public:
 
     /// Records the passes that add what the camera sees, of the light that is kept and directly, to the radiance of
     /// sums, [pixels] in the order of shaders/path/path.h. seen: as in update(), of the last one or of another picture
-    /// of the same tree. Throws Error{Memory}, if it is larger. Cost: pixels.
+    /// of the same tree. Throws Error{Memory}, if it is larger. Cost: pixels; for KeptView::Cones, six cones and a ray
+    /// to the sun for each. They follow their rays in one dispatch each, however long.
     void view(vk::FrameGraph& graph, const DeviceTree& tree, const DeviceEnvironment& environment,
-              const TraceCamera& camera, const TraceBuffers& seen, vk::BufferOf<gpu::PixelSum>& sums);
+              const TraceCamera& camera, const TraceBuffers& seen, vk::BufferOf<gpu::PixelSum>& sums,
+              const RadianceOptions& options = {});
 
     /// Has means count few samples for some frames: because voxels have changed in another way than by what moves.
     /// Where the environment changes, update() sees that.
@@ -127,6 +137,9 @@ private:
     void begin(vk::FrameGraph& graph, const Work& work);
     void gather(vk::FrameGraph& graph, const Work& work);
     void apply(vk::FrameGraph& graph, const Work& work);
+    void traceCones(vk::FrameGraph& graph, const DeviceTree& tree, const DeviceEnvironment& environment,
+                    const TraceCamera& camera, const TraceBuffers& seen, vk::BufferOf<gpu::PixelSum>& sums,
+                    std::uint32_t seed);
     void surround(vk::FrameGraph& graph, std::uint32_t level);
     void fold(vk::FrameGraph& graph, const Work& work, std::uint32_t level);
 

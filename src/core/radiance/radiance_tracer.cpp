@@ -52,7 +52,7 @@ void RadianceTracer::addFrame(vk::FrameGraph& graph, const DeviceTree& tree, Dev
     trace.stack = options.stack;
     m_tracer.tracePrimary(graph, tree, through, trace);
     m_cache.update(graph, tree, environment, through, m_tracer.buffers(), options);
-    m_cache.view(graph, tree, environment, through, m_tracer.buffers(), *m_sums);
+    m_cache.view(graph, tree, environment, through, m_tracer.buffers(), *m_sums, options);
     m_frame_count = frame + 1;
 }
 

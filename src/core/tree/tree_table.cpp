@@ -48,4 +48,24 @@ gpu::TreeTable treeTable(const DeviceTree& tree)
     return table;
 }
 
+gpu::ConstPtr<gpu::TreeTable> readTree(vk::AnyPass& pass, const DeviceTree& tree,
+                                       const vk::BufferOf<gpu::TreeTable>& table)
+{
+    pass.read(tree.nodes);
+    pass.read(tree.emission_words);
+    pass.read(tree.emission);
+    pass.read(tree.node_attributes);
+    pass.read(tree.packed.nodes);
+    if (tree.isDag())
+    {
+        pass.read(tree.lists.before);
+        pass.read(tree.lists.voxels_before_leaf);
+    }
+    if (tree.overlays.hasRanks())
+    {
+        pass.read(tree.overlays.ranks);
+    }
+    return pass.read(table);
+}
+
 } // namespace zvo

@@ -1,0 +1,89 @@
+#version 460
+// SPDX-License-Identifier: MIT
+// Adds what each pixel reflects of the light that comes through one of six cones above its hit, and of the sun. Cones
+// are turned about the normal by a random angle, of which the mean over frames is left.
+#extension GL_GOOGLE_include_directive : require
+#define TRAVERSE_VARIABLES
+#define ZVO_DETAIL
+#define ZVO_NODE_LEVELS kTreeNodeLevels
+#define ZVO_ENTRIES_PER_WORD kTreeEntriesPerWord
+#include "radiance/radiance.h"
+#include "lib/bound.glsl"
+#include "lib/dispatch.glsl"
+#include "lib/frame.glsl"
+#include "lib/sobol.glsl"
+#include "trace/trace.h"
+
+layout(constant_id = 0) const uint kTreeNodeLevels = 5u;
+layout(constant_id = 1) const uint kTreeEntriesPerWord = 0u;
+layout(constant_id = 2) const bool kOrthographic = false;
+
+#include "host/tree.glsl"
+#include "light/map_radiance.glsl"
+#include "path/face.glsl"
+#include "path/strip.glsl"
+#include "radiance/seen_sum.glsl"
+
+layout(local_size_x = kRadianceGroup) in;
+layout(push_constant, scalar) uniform Push
+{
+    RadianceConesParams params;
+};
+
+#define FACES_BINDING 0
+#define HITS_BINDING 1
+#include "radiance/face_key.glsl"
+#include "radiance/face_table.glsl"
+#include "radiance/kept_light.glsl"
+#include "host/cone.glsl"
+#include "radiance/hit_loads.glsl"
+#include "radiance/seen_hit.glsl"
+
+// Cones of 60 degrees, whose weights are the shares of the cosine: one around the normal, and five around it at 60
+// degrees.
+const float kConeSpread = 0.57735027; // tangent of 30 degrees
+const float kConeWeight = 0.25;
+const float kSideWeight = 0.15;
+
+vec3 coneDirection(vec3 normal, uint cone, float turn)
+{
+    float angle = 2.0 * kPi * (float(cone) / 5.0 + turn);
+    vec3 aside = vec3(0.8660254 * vec2(cos(angle), sin(angle)), 0.5);
+    return frameAround(normal) * (cone == 0u ? vec3(0.0, 0.0, 1.0) : aside);
+}
+
+// Of the sun's disc at that height: irradiance over pi.
+vec3 sunAt(vec3 point, vec3 normal)
+{
+    vec3 to_sun = params.environment.data[0].to_sun;
+    float cosine = max(dot(normal, to_sun), 0.0);
+    vec3 sun = params.environment.data[0].sun * 2.0 * params.environment.data[0].sun_height * cosine;
+    return sun != vec3(0.0) && !zvo_occluded(params.tree, point, to_sun, 0.0, kTraceTimeMax) ? sun : vec3(0.0);
+}
+
+void main()
+{
+    uvec2 size = uvec2(params.width, params.height);
+    uint number = threadIndex();
+    if (number >= size.x * size.y)
+        return;
+    uvec2 pixel = pixelOfNumber(number, size);
+    Hit hit = seenHit(pixel);
+    if (isMiss(hit) || hitFace(hit) == kFaceInside)
+        return;
+
+    vec3 origin = zvo_pixelOrigin(params.camera, kOrthographic, pixel, size);
+    vec3 direction = zvo_pixelDirection(params.camera, kOrthographic, pixel, size);
+    zvo_Surface surface = zvo_surface(params.tree, hit, direction);
+    vec3 normal = normalAxis(normalOfHit(hitFace(hit), direction));
+    vec3 point = zvo_toWorld(params.tree, origin + hit.t * direction) + surface.edge * normal;
+    uint seed = hashPair(number, params.seed);
+    vec3 towards = coneDirection(normal, params.cone, samplePair(params.frame, seed, 0u).x);
+    uint seed_of_cone = hashPair(seed, params.frame * kDiffuseCones + params.cone);
+    vec4 found = lightThroughCone(params.tree, point, towards, kConeSpread, kTraceTimeMax, seed_of_cone);
+    vec3 light = found.rgb + found.w * mapRadiance(params.environment, towards);
+    light *= params.cone == 0u ? kConeWeight : kSideWeight;
+    if (params.cone == 0u)
+        light += sunAt(point, normal);
+    addRadiance(params.sums, number, surface.base_color * light);
+}
