@@ -42,8 +42,8 @@ struct KeptLightStats
 
 /// Light that is kept on the faces of voxels and gets better from frame to frame (docs/radiance.md), for the host's own
 /// shaders: zvo/trace.glsl looks it up at any point of a surface, without a ray (docs/host-glsl.md). It follows what
-/// moves, brushes and lamps by itself. All frames in flight may use it. Move-only; throws Error{Usage} when it is used
-/// after it was moved from.
+/// moves, brushes, the sun and lamps by itself. All frames in flight may use it. Move-only; throws Error{Usage} when it
+/// is used after it was moved from.
 class ZVO_API KeptLight
 {
 public:
@@ -77,10 +77,11 @@ public:
                 const KeptFrameInfo& info = {});
 
     /// The address of a table for the host's shaders (zvo_KeptLightTable), which stays the same however the light is
-    /// moved. What it says means nothing before the first update().
+    /// moved. What it says means nothing before the first update() that reaches the device.
     [[nodiscard]] std::uint64_t address() const;
 
-    /// Has the next update() begin anew, such as after a cut. Records nothing: shaders see what was kept until then.
+    /// Has the next update() begin anew, such as in another scene. Records nothing: shaders see what was kept until
+    /// then.
     void forget();
 
     /// Counts of the newest update() whose frame is done.
