@@ -18,6 +18,7 @@ FaceTable params;
 #include "radiance/face_key.glsl"
 #include "radiance/face_table.glsl"
 #include "radiance/kept_light.glsl"
+#include "radiance/between_faces.glsl"
 
 const uint kPointRaysMax = 1024u;
 const uint kSettledSamples = 8u;      // from which on a face's light counts in full where it is mixed with others'
@@ -44,7 +45,7 @@ struct FaceSum
 void addFace(ivec3 cell, uint normal, float share, inout FaceSum sum)
 {
     KeptFace face;
-    bool is_kept = findFace(uvec3(cell) & kHitCoordinateMask, normal, face) != kNoFace;
+    bool is_kept = findFace(uvec3(cell) & kHitCoordinateMask, normal, 0u, face) != kNoFace;
     uint samples = is_kept ? min(keptWeight(face.light), kSettledSamples) : 0u;
     float weight = share * float(samples) / float(kSettledSamples);
     sum.light += samples == 0u ? vec3(0.0) : weight * keptRadiance(face.light);
@@ -141,8 +142,14 @@ vec4 zvo_keptRadiance(KeptLightTable_ConstPtr light, TreeTable_ConstPtr tree, Hi
     {
         vec3 offset = clamp((position - surface.middle) / surface.edge, -0.5, 0.5);
         FaceSum sum = FaceSum(vec3(0.0), 0.0, 0.0);
-        addPlane(ivec3(surface.cell), normalOfHit(hitFace(hit), direction), offset, 1, 1.0, sum);
+        uint normal = normalOfHit(hitFace(hit), direction);
+        addPlane(ivec3(surface.cell), normal, offset, 1, 1.0, sum);
         kept = lightOfSum(sum);
+        if (kept.w == 0.0)
+        {
+            vec3 light = lightOfBrick(surface.cell, normal, true);
+            kept = light != vec3(0.0) ? vec4(light, 1.0) : vec4(0.0);
+        }
     }
     bool is_known = kept.w > 0.0 || surface.emission != vec3(0.0);
     return vec4(surface.emission + surface.base_color * kept.rgb, is_known ? 1.0 : 0.0);

@@ -1,10 +1,13 @@
 #version 460
 // SPDX-License-Identifier: MIT
-// Adds a sample to the means of each face that the frame takes. Later samples weigh more, the n-th as much as its
-// number: the light that faces reflect to each other is still dim in the first ones.
+// Adds a sample to the means of each face that the frame takes, and to the sums of its brick. Later samples weigh more,
+// the n-th as much as its number: the light that faces reflect to each other is still dim in the first ones.
 #extension GL_GOOGLE_include_directive : require
 #include "radiance/radiance.h"
+#include "lib/bound.glsl"
 #include "lib/dispatch.glsl"
+#include "lib/hit.glsl"
+#include "lib/luminance.glsl"
 #include "lib/sobol.glsl"
 
 layout(local_size_x = kRadianceGroup) in;
@@ -13,8 +16,15 @@ layout(push_constant, scalar) uniform Push
     RadianceApplyParams params;
 };
 
+#define FACES_BINDING 0
+#define STATES_BINDING 1
 #include "path/lists.glsl"
+#include "radiance/face_key.glsl"
+#include "radiance/face_table.glsl"
 #include "radiance/kept_light.glsl"
+#include "radiance/between_faces.glsl"
+#include "radiance/brick_sum.glsl"
+#include "radiance/share_of_brick.glsl"
 
 // The mark of a face whose path has hit what its number tells.
 uint markAfter(uint mark, uint number)
@@ -45,23 +55,43 @@ void main()
         return;
     uint number = params.numbers.data[i];
     uint slot = number & ~(kPathMoved | kPathTouched);
-    FaceState state = params.states.data[slot];
+    uvec2 key = loadFace(slot).key;
+    FaceState state = loadFaceState(slot);
     uint mark = markAfter(state.mark, number);
-    uint64_t_Ptr words = uint64_t_Ptr(uint64_t(params.faces));
-    uvec2 key = unpackUint2x32(words.data[2u * slot]);
-    uvec2 light = unpackUint2x32(words.data[2u * slot + 1u]);
     vec3 sampled = params.radiance.data[i];
-    uint count = keptWeight(light) + 1u;
-    uint random = hashPair(hashPair(key.y, key.x), params.frame);
-    vec3 thresholds = vec3(random & 1023u, bitfieldExtract(random, 10, 10), bitfieldExtract(random, 20, 10)) / 1024.0;
+    vec3 thresholds = thresholdsOf(hashPair(hashPair(key.y, key.x), params.frame));
 
+    uint before = keptWeight(state.own);
+    uint count = before + 1u;
     bool touched = ((mark >> kMarkMovedShift) & kMarkMovedFrames) != 0u;
     count = (mark & kFaceMoved) != 0u ? min(count, params.moved_window)
             : touched                 ? min(count, params.touched_window)
                                       : count;
     uint weight = min(count, params.window);
-    words.data[2u * slot + 1u] =
-        packUint2x32(packKept(towards(keptRadiance(light), sampled, weight), weight, thresholds));
+    vec3 last = keptRadiance(state.own);
+    vec3 own = towards(last, sampled, weight);
     vec3 recent = towards(recentRadiance(state.recent), sampled, min(count, kRecentSamples));
-    params.states.data[slot] = FaceState(mark, packRecent(recent, thresholds));
+
+    uvec3 cell = cellOfFace(key);
+    KeptFace around;
+    uint brick;
+    vec4 sum = lightBetweenFaces(cell >> 2, normalOfFace(key), (vec3(cell & 3u) + 0.5) / 4.0, 1u, brick, around);
+    vec3 between = sum.rgb / max(sum.w, 1e-6);
+    FaceSpread spread = spreadOf(luminance(sampled), luminance(last), luminance(between));
+    float worth = 0.0;
+    if (brick != kNoFace)
+    {
+        FaceState state_of_brick = loadFaceState(brick);
+        worth = worthOfBrick(state_of_brick.own);
+        bool is_spread = sum.w > 0.0 && before != 0u;
+        uint counts = kSumOfSample + (touched && params.touched_window < params.window ? kSumOfMove : 0u) +
+                      (is_spread ? kSumOfSpread : 0u);
+        addLight(state_of_brick.recent, stepOfBrick(around.light), sampled, thresholds, counts);
+        if (is_spread)
+            addSpread(state_of_brick.recent, spread, thresholds.xy);
+    }
+    precise vec3 shown = mix(own, between, sum.w > 0.0 ? shareOfBrick(float(weight), worth) : 0.0);
+
+    uint64_t_Ptr(uint64_t(params.faces)).data[2u * slot + 1u] = packUint2x32(packKept(shown, weight, thresholds));
+    params.states.data[slot] = FaceState(mark, packRecent(recent, thresholds), packKept(own, weight, thresholds));
 }

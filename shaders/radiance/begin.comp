@@ -1,6 +1,7 @@
 #version 460
 // SPDX-License-Identifier: MIT
-// Starts a path from a random point of each listed face that the frame takes, and takes the others off the list.
+// Starts a path from a random point of each listed face that the frame takes, and takes the others off the list. Lists
+// the bricks of these faces.
 #extension GL_GOOGLE_include_directive : require
 #include "radiance/radiance.h"
 #include "lib/bound.glsl"
@@ -32,7 +33,10 @@ layout(push_constant, scalar) uniform Push
 #include "path/lists.glsl"
 #include "path/point_of_face.glsl"
 #include "radiance/face_key.glsl"
+#include "radiance/face_table.glsl"
+#include "radiance/insert_face.glsl"
 #include "radiance/kept_light.glsl"
+#include "radiance/list_brick.glsl"
 #include "radiance/rank.glsl"
 
 void main()
@@ -53,7 +57,8 @@ void main()
     next.state = PathState(vec3(1.0), path, seed, normalOfFace(key), 0.0, vec3(0.0));
     next.choice = samplePair(params.sample_index, seed, kPairOther).x;
     uvec3 cell = cellOfFace(key);
-    vec3 normal = normalAxis(next.state.normal);
+    uint face_normal = next.state.normal;
+    vec3 normal = normalAxis(face_normal);
     float edge = exp2(-2.0 * float(kNodeLevels));
     vec3 point = pointOfFace(cell, next.state.normal, edge, samplePair(params.sample_index, seed, kPairPixel));
     leaveFace(pointOnFace(point, cell, normal), 0u, next);
@@ -65,6 +70,7 @@ void main()
         params.numbers.data[path] = slot;
     }
 
+    listBrick(cell, face_normal, 1u, taken);
     bool in_map = seeksMapLight(next);
     uint map_light = appendTo(0u, kListMapLights, in_map);
     if (in_map)
@@ -77,5 +83,6 @@ void main()
             params.numbers.data[kListVoxelLights * params.batch + voxel_light] = path;
     }
     if (i < length)
-        params.states.data[slot].mark = (mark & ((kMarkMovedFrames << kMarkMovedShift) | kFaceMoved)) | (params.frame & kMarkFrames);
+        params.states.data[slot].mark =
+            (mark & ((kMarkMovedFrames << kMarkMovedShift) | kFaceMoved)) | (params.frame & kMarkFrames);
 }

@@ -3,8 +3,10 @@
 // and radiance/kept_light.glsl before.
 
 // The light at a place on a face, from those four faces with the same normal in the same plane whose middles are around
-// it, as far as they keep any. place: from the cell's lower corner, in cells.
-vec3 lightBetweenFaces(uvec3 cell, uint normal, vec3 place)
+// it, as far as they keep any; then w is more than 0, and xyz are to be divided by it. Likewise between bricks. cell:
+// of the level. place: from the cell's lower corner, in cells of the level. slot, here: the face that the place is on,
+// as findFace() gives it.
+vec4 lightBetweenFaces(uvec3 cell, uint normal, vec3 place, uint level, out uint slot, out KeptFace here)
 {
     uint axis = normal % 3u;
     vec3 offset = clamp(place, 0.0, 1.0) - 0.5;
@@ -18,10 +20,38 @@ vec3 lightBetweenFaces(uvec3 cell, uint normal, vec3 place)
         ivec2 shift = ivec2(far.x ? side.x : 0, far.y ? side.y : 0);
         ivec3 moved = axis == 0u ? ivec3(0, shift) : axis == 1u ? ivec3(shift.x, 0, shift.y) : ivec3(shift, 0);
         KeptFace face;
-        bool found = findFace(uvec3(ivec3(cell) + moved) & kHitCoordinateMask, normal, face) != kNoFace;
+        uint found_slot = findFace(uvec3(ivec3(cell) + moved) & kHitCoordinateMask, normal, level, face);
+        bool found = found_slot != kNoFace;
+        if (k == 0u)
+        {
+            slot = found_slot;
+            here = face;
+        }
         float share = (far.x ? across.x : 1.0 - across.x) * (far.y ? across.y : 1.0 - across.y);
         share = found && keptWeight(face.light) != 0u ? share : 0.0;
         sum += share * vec4(keptRadiance(face.light), 1.0);
     }
-    return sum.w > 0.0 ? sum.rgb / sum.w : vec3(0.0);
+    return sum;
+}
+
+// As above, without the face itself.
+vec4 lightBetweenFaces(uvec3 cell, uint normal, vec3 place, uint level)
+{
+    uint slot;
+    KeptFace here;
+    return lightBetweenFaces(cell, normal, place, level, slot, here);
+}
+
+// The light at a place on a face that no ray has sampled yet, nor any around it: that of the least brick which keeps
+// some. Of a face that needs none, black.
+vec3 lightOfBrick(uvec3 cell, uint normal, bool is_needed)
+{
+    vec3 light = vec3(0.0);
+    for (uint level = 1u; is_needed && level <= kBrickLevels; ++level)
+    {
+        KeptFace face;
+        is_needed = findFace(cell >> (2u * level), normal, level, face) == kNoFace || keptWeight(face.light) == 0u;
+        light = is_needed ? light : keptRadiance(face.light);
+    }
+    return light;
 }

@@ -4,10 +4,11 @@
 //   FACES_BINDING     optional: the binding for params.faces
 //   STATES_BINDING    where params has states: the binding for them
 
-// normal: its number as in LightBrick::exposed.
-uvec2 faceKey(uvec3 cell, uint normal)
+// cell: of the level. normal: its number as in LightBrick::exposed.
+uvec2 faceKey(uvec3 cell, uint normal, uint level)
 {
-    return uvec2(cell.x | (cell.y << 18), (cell.y >> 13) | (cell.z << 5) | (normal << 23)) | kFaceKeyTag;
+    return uvec2(cell.x | (cell.y << 18), (cell.y >> 13) | (cell.z << 5) | (normal << 23) | (level << 26)) |
+           kFaceKeyTag;
 }
 
 uvec3 cellOfFace(uvec2 key)
@@ -19,6 +20,11 @@ uvec3 cellOfFace(uvec2 key)
 uint normalOfFace(uvec2 key)
 {
     return bitfieldExtract(key.y, 23, 3);
+}
+
+uint levelOfFace(uvec2 key)
+{
+    return bitfieldExtract(key.y, 26, 5);
 }
 
 // Bound forms (lib/bound.glsl) read both from texels.
@@ -44,20 +50,21 @@ KeptFace loadFace(uint slot)
 
 #if defined(BOUND) && defined(STATES_BINDING)
 
-TEXELS_2(STATES_BINDING, states);
+TEXELS_4(STATES_BINDING, states);
 
 FaceState loadFaceState(uint slot)
 {
-    uvec2 words = texelFetch(texels2_states, int(slot)).xy;
-    return FaceState(words.x, words.y);
+    uvec4 words = texelFetch(texels4_states, int(slot));
+    return FaceState(words.x, words.y, words.zw);
 }
 
 #elif defined(STATES_BINDING)
 
 FaceState loadFaceState(uint slot)
 {
-    uvec2 words = unpackUint2x32(uint64_t_ConstPtr(uint64_t(params.states)).data[slot]);
-    return FaceState(words.x, words.y);
+    uint64_t_ConstPtr words = uint64_t_ConstPtr(uint64_t(params.states));
+    uvec2 first = unpackUint2x32(words.data[2u * slot]);
+    return FaceState(first.x, first.y, unpackUint2x32(words.data[2u * slot + 1u]));
 }
 
 #endif

@@ -3,11 +3,12 @@
 
 const uint kNoFace = ~0u;
 
-// The first slot to look at. The faces of 2x2x2 cells stand side by side.
-uint faceHome(uvec3 cell, uint normal)
+// The first slot to look at. The faces of 2x2x2 cells of a level stand side by side.
+uint faceHome(uvec3 cell, uint normal, uint level)
 {
-    uvec3 block = cell >> 1;
-    uint mixed = block.x * 0x9E3779B1u ^ block.y * 0x85EBCA77u ^ block.z * 0xC2B2AE3Du ^ normal * 0x27D4EB2Fu;
+    uvec3 pair = cell >> 1;
+    uint mixed = pair.x * 0x9E3779B1u ^ pair.y * 0x85EBCA77u ^ pair.z * 0xC2B2AE3Du ^
+                 (normal | (level << 3)) * 0x27D4EB2Fu;
     mixed = (mixed ^ (mixed >> 15)) * 0x2C1B3C6Du;
     mixed ^= mixed >> 13;
     uint run;
@@ -21,11 +22,11 @@ uint slotAfter(uint slot)
     return slot + 1u == kFaceRun * params.run_count ? 0u : slot + 1u;
 }
 
-// The slot of a face that an earlier dispatch inserted, or kNoFace. face: its contents.
-uint findFace(uvec3 cell, uint normal, out KeptFace face)
+// The slot of a face, or of a brick, that an earlier dispatch inserted, or kNoFace. face: its contents.
+uint findFace(uvec3 cell, uint normal, uint level, out KeptFace face)
 {
-    uvec2 key = faceKey(cell, normal);
-    uint slot = faceHome(cell, normal);
+    uvec2 key = faceKey(cell, normal, level);
+    uint slot = faceHome(cell, normal, level);
     face = loadFace(slot);
     for (uint probe = 0u; face.key != key && face.key.x != 0u && probe < kFaceProbesMax; ++probe)
     {

@@ -33,6 +33,7 @@ const uint kNodeLevels = 0u; // no hit is a node's
 #include "radiance/face_table.glsl"
 #include "radiance/hit_loads.glsl"
 #include "radiance/kept_light.glsl"
+#include "radiance/between_faces.glsl"
 #include "radiance/insert_face.glsl"
 #include "radiance/want_face.glsl"
 
@@ -62,9 +63,14 @@ void main()
     uint slot = kNoFace;
     if (hits && hitFace(hit) != kFaceInside)
     {
-        slot = insertFace(hitCell(hit), normalOfHit(hitFace(hit), loadRay(params.rays, i).inverse_direction));
+        uint normal = normalOfHit(hitFace(hit), loadRay(params.rays, i).inverse_direction);
+        slot = insertFace(hitCell(hit), normal, 0u);
         if (slot != kNoFace)
-            params.radiance.data[i] = albedoOf(attributeAt(true, hit)) * recentRadiance(loadFaceState(slot).recent);
+        {
+            FaceState state = loadFaceState(slot);
+            vec3 light = recentRadiance(state.recent) + lightOfBrick(hitCell(hit), normal, keptWeight(state.own) == 0u);
+            params.radiance.data[i] = albedoOf(attributeAt(true, hit)) * light;
+        }
     }
     wantFace(slot, 0u, wantedList(params.frame + 1u));
 }

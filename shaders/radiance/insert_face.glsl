@@ -3,12 +3,12 @@
 
 #define FACE_WORD(SLOT, WORD) uint_Ptr(uint64_t(params.faces) + uint64_t(SLOT) * kKeptFaceBytes).data[WORD]
 
-// The slot of a face, which is taken if it has none; kNoFace if there is no place. Of both words of a key, which are
-// set one after the other, each is written at most once: lib/bricks.glsl says why that suffices.
-uint insertFace(uvec3 cell, uint normal)
+// The slot of a face, or of a brick, which is taken if it has none; kNoFace if there is no place. Of both words of a
+// key, which are set one after the other, each is written at most once: lib/bricks.glsl says why that suffices.
+uint insertFace(uvec3 cell, uint normal, uint level)
 {
-    uvec2 key = faceKey(cell, normal);
-    uint slot = faceHome(cell, normal);
+    uvec2 key = faceKey(cell, normal, level);
+    uint slot = faceHome(cell, normal, level);
     bool searching = true;
     bool claimed = false;
     for (uint probe = 0u; searching && probe < kFaceProbesMax; ++probe)
@@ -28,7 +28,7 @@ uint insertFace(uvec3 cell, uint normal)
         searching = found != key;
         slot = searching ? slotAfter(slot) : slot;
     }
-    if (claimed)
+    if (claimed && level == 0u)
         atomicAdd(params.counters.data[0].face_count, 1u);
     if (searching)
         atomicAdd(params.counters.data[0].refused, 1u);

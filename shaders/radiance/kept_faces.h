@@ -8,12 +8,12 @@
 
 GPU_NAMESPACE_BEGIN
 
-/// A face with the light that arrives at it.
+/// A face, or the faces of a brick, with the light that is shown.
 ///
 ///     key    x 18 bits | y 13 of 18, kFaceKeyTag
-///            y 5 of 18 | z 18 | number of the normal 3 (LightBrick::exposed), kFaceKeyTag
+///            y 5 of 18 | z 18 | number of the normal 3 (LightBrick::exposed) | level 5 (0: a face), kFaceKeyTag
 ///     light  red 16 | green 16
-///            blue 16 | exponent 6 | weight 10 (radiance/kept_light.glsl)
+///            blue 16 | exponent 6 | samples 10, of the face or the brick alone (radiance/kept_light.glsl)
 ///
 /// A first word of 0 means that the slot is free; the words of the key are set one after the other (lib/bricks.glsl).
 struct KeptFace
@@ -27,6 +27,7 @@ const uint kKeptFaceBytes = 16u;
 const uint kFaceKeyTag = 1u << 31; // in both words of a key
 const uint kFaceRun = 8u;          // slots that faces of 2x2x2 cells with the same normal share as their first ones
 const uint kFaceProbesMax = 128u;  // slots looked at before the table counts as full
+const uint kBrickLevels = 3u;      // that are kept
 
 /// Where the light that is kept on voxels is in device memory, with the light from outside of the grid.
 struct KeptLightTable

@@ -5,6 +5,11 @@
 // thresholds: three numbers in [0, 1). A channel is rounded up where its fraction is above one minus that. So means of
 // many small steps stay unbiased.
 
+vec3 thresholdsOf(uint random)
+{
+    return vec3(random & 1023u, bitfieldExtract(random, 10, 10), bitfieldExtract(random, 20, 10)) / 1024.0;
+}
+
 const int kKeptBias = 37; // a mantissa is worth 2^(exponent - kKeptBias)
 
 vec3 keptRadiance(uvec2 light)

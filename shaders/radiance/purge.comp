@@ -26,10 +26,10 @@ void main()
     uint age = (params.frame - state.mark) & kMarkFrames;
     if (face.key.x == 0u || age > params.age_max)
         return;
-    uint slot = insertFace(cellOfFace(face.key), normalOfFace(face.key));
+    uint slot = insertFace(cellOfFace(face.key), normalOfFace(face.key), levelOfFace(face.key));
     if (slot != kNoFace)
     {
         params.faces.data[slot].light = face.light;
-        params.states.data[slot] = FaceState(state.mark & ~(kFaceListed | kFaceSeen), state.recent);
+        params.states.data[slot] = FaceState(state.mark & ~(kFaceListed | kFaceSeen), state.recent, state.own);
     }
 }

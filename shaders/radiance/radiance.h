@@ -13,6 +13,11 @@
 // lately count fewer samples: few where the ray went to a light, or where it has happened twice within some frames, for
 // then what moves matters there. So its shadows come and go within some frames, and other light stays smooth.
 //
+// Bricks have means, too: a brick of level l is a cube of 4^l cells, a node of the tree, and keeps the light of all
+// faces in it that have the same normal. Its samples are theirs. A face with few samples shows a mean of its own light
+// and of the light between bricks, with weights that follow from how much samples and faces differ
+// (radiance/share_of_brick.glsl).
+//
 // A frame takes so many faces as its budget has rays, of those that were hit since the frame before. A sample of a face
 // is a path of one bounce from a random point of it: a ray in a random direction, which brings emission, light from
 // outside of the grid, or what the face that it hits reflects of the light that is kept there; and a light that is
@@ -20,16 +25,19 @@
 //
 //   radiance/want      faces that the camera sees: into the table, and into the frame's list
 //   radiance/tally     counts the faces of the list by their rank; its last threads find the rank that the budget ends
-//   radiance/begin     a path from each face of a lower rank
+//   radiance/begin     a path from each face of a lower rank; the brick of level 1 around it: into table and list
+//   radiance/surround  the bricks of a level around those of the one before that are listed: likewise
 //     trace/rays, radiance/gather            what the paths hit, and the light that is kept there
 //     path/miss, path/emitter                light that they have met
 //     path/map_light, path/voxel_light, trace/rays, path/connect      light that was chosen
-//   radiance/apply     adds the samples to the means
+//   radiance/apply     adds the samples to the means of faces, and to the sums of bricks of level 1
+//   radiance/fold      adds the sums to the means of bricks of a level, and to the sums of the next level
 //   radiance/purge     into another table, without faces that no ray has hit for long; only while something moves
 //   radiance/view, radiance/direct         what the camera sees of it, and of lamps and the sky
 //
-// Kernels read what the frame before has kept, and only radiance/apply writes: what comes out does not depend on the
-// order of threads, though the places of faces in the table, and in lists, do.
+// Kernels read what the frame before has kept; only radiance/apply and radiance/fold write, and sums of samples are
+// integers. So what comes out does not depend on the order of threads, though the places of faces in the table, and in
+// lists, do.
 #ifndef ZVO_SHADERS_RADIANCE_RADIANCE_H
 #define ZVO_SHADERS_RADIANCE_RADIANCE_H
 
@@ -45,12 +53,34 @@ const uint kRadianceGroup = 64u; // threads of a workgroup
 ///     mark    the last frame in which a ray has hit the face, modulo 2^15, 15 | the last one in which a ray of the
 ///             face has hit what moves, modulo 2^14 - 1, plus 1, or 0: none, 14 | kFaceMoved | kFaceSeen | kFaceListed
 ///     recent  red 8 | green 8 | blue 8 | exponent 8 (radiance/kept_light.glsl): a mean of the last samples
+///             of a brick: its index in BrickSums, while it is listed
+///     own     as KeptFace::light, of the face's samples alone
+///             of a brick: FaceSpread, as two halves, and the number of samples that it is of
 struct FaceState
 {
     uint mark;
     uint recent;
+    uvec2 own;
 };
-GPU_BUFFER(FaceState, 8);
+GPU_BUFFER(FaceState, 16);
+
+/// Sums of a brick over the samples of a frame, or over the means of the bricks in it: 64 at most.
+struct BrickSum
+{
+    uvec3 light; // in steps that depend on the light that the brick keeps (radiance/brick_sum.glsl)
+    uint counts; // of samples 8 | of those where what moves matters, or has touched rays, 8 | of what follows 8
+    int apart;   // FaceSpread (radiance/share_of_brick.glsl), in steps of 2^-kSpreadShift
+    int between;
+};
+GPU_BUFFER(BrickSum, 4);
+
+const uint kSpreadShift = 14u;
+const uint kBrickFaces = 4u; // what means of bricks count in samples, over what those of faces do
+
+// How many samples of a face the light between bricks weighs as much as, at most, and how many times so many a face has
+// when it counts alone.
+const float kBrickWorth = 128.0;
+const float kBrickGone = 16.0;
 
 const uint kKeptWeightMax = 1023u;
 const uint kRecentSamples = 16u; // that FaceState::recent counts
@@ -74,9 +104,11 @@ const uint kFaceListed = 1u << 31; // in the frame's list, or the next frame's
 const uint kFaceSeen = 1u << 30;   // by the camera, since it was listed
 const uint kFaceMoved = 1u << 29;  // what moves matters for its light
 
-// Elements of PathBatch::lists, as bounces: of paths, then of the faces of even and odd frames, in kListPaths.
+// Elements of PathBatch::lists, as bounces: of paths, then of the faces of even and odd frames, then of the bricks of
+// each level, in kListPaths.
 const uint kWantedEven = 1u;
 const uint kWantedOdd = 2u;
+const uint kFirstBricks = 3u;
 
 // Faces are ranked by a random number, less for those with few samples and those that the camera sees, in steps of a
 // 32nd of it. A frame takes all ranks below a limit.
@@ -87,7 +119,7 @@ const uint kRankFirst = (127u - kFaceRanks / 32u) << (23u - kRankShift);
 /// Counters of the table, of all frames or of one.
 struct RadianceCounters
 {
-    uint face_count;  // in the table
+    uint face_count;  // in the table, without bricks
     uint refused;     // inserts that found no slot
     uint rank_limit;  // of the frame, like what follows
     uint arrived;     // threads that have counted (lib/arrivals.glsl)
@@ -132,10 +164,10 @@ GPU_KERNEL(radiance, tally, Tally, RadianceTallyParams)
 
 struct RadianceBeginParams // push constants of radiance/begin: a thread a listed face
 {
-    GPU_CONST_PTR(KeptFace) faces;
+    GPU_PTR(KeptFace) faces;
     GPU_PTR(FaceState) states;
     GPU_CONST_PTR(uint) wanted;
-    GPU_CONST_PTR(RadianceCounters) counters;
+    GPU_PTR(RadianceCounters) counters;
     GPU_CONST_PTR(vec2) gives;            // [kNormals] as Environment::gives
     GPU_CONST_PTR(LightNode) light_nodes; // kEmission only
     GPU_PTR(DispatchArgs) lists;
@@ -143,7 +175,9 @@ struct RadianceBeginParams // push constants of radiance/begin: a thread a liste
     GPU_PTR(Ray) rays;
     GPU_PTR(PathState) path_states;
     GPU_PTR(vec3) radiance; // [batch]
+    GPU_PTR(uint) bricks;   // [kBrickLevels][batch] slots
     uint batch;
+    uint run_count;
     uint frame;
     uint sample_index;
     uint seed;
@@ -152,6 +186,19 @@ GPU_KERNEL_BEGIN(radiance, begin, Begin, RadianceBeginParams)
     GPU_CONSTANT(uint, node_levels, 5u)
     GPU_CONSTANT(bool, emission, false)
 GPU_KERNEL_END
+
+struct RadianceSurroundParams // push constants of radiance/surround: a thread a listed brick of a level
+{
+    GPU_PTR(KeptFace) faces;
+    GPU_PTR(FaceState) states;
+    GPU_PTR(RadianceCounters) counters;
+    GPU_PTR(DispatchArgs) lists;
+    GPU_PTR(uint) bricks;
+    uint batch;
+    uint run_count;
+    uint level;
+};
+GPU_KERNEL(radiance, surround, Surround, RadianceSurroundParams)
 
 struct RadianceGatherParams // push constants of radiance/gather: a thread a path
 {
@@ -183,12 +230,31 @@ struct RadianceApplyParams // push constants of radiance/apply: a thread a path
     GPU_CONST_PTR(uint) numbers;
     GPU_CONST_PTR(vec3) radiance;
     GPU_PTR(DispatchArgs) lists;
+    GPU_PTR(BrickSum) sums; // [kBrickLevels][batch]
+    uint batch;
+    uint run_count;
     uint frame;
     uint window;         // the most samples that the mean's weight counts, at least 1 and at most kKeptWeightMax
     uint touched_window; // likewise, of a face one of whose rays has hit what moves
     uint moved_window;   // likewise, where what moves matters
 };
 GPU_KERNEL(radiance, apply, Apply, RadianceApplyParams)
+
+struct RadianceFoldParams // push constants of radiance/fold: a thread a listed brick of a level
+{
+    GPU_PTR(KeptFace) faces;
+    GPU_PTR(FaceState) states;
+    GPU_CONST_PTR(uint) bricks;
+    GPU_PTR(DispatchArgs) lists;
+    GPU_PTR(BrickSum) sums;
+    uint batch;
+    uint run_count;
+    uint frame;
+    uint level;
+    uint window;       // the most samples that means count
+    uint moved_window; // likewise, where something moves
+};
+GPU_KERNEL(radiance, fold, Fold, RadianceFoldParams)
 
 struct RadiancePurgeParams // push constants of radiance/purge: a thread a slot of the old table
 {

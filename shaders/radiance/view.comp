@@ -59,6 +59,8 @@ void main()
     vec3 origin = params.camera.origin + (kOrthographic ? offset : vec3(0.0));
     vec3 direction = params.camera.forward + (kOrthographic ? vec3(0.0) : offset);
     vec3 point = (origin + hit.t * direction - 1.0) * exp2(2.0 * float(kNodeLevels)) - vec3(hitCell(hit));
-    vec3 light = lightBetweenFaces(hitCell(hit), normalOfHit(hitFace(hit), direction), point);
+    uint normal = normalOfHit(hitFace(hit), direction);
+    vec4 sum = lightBetweenFaces(hitCell(hit), normal, point, 0u);
+    vec3 light = sum.rgb / max(sum.w, 1e-6) + lightOfBrick(hitCell(hit), normal, sum.w == 0.0);
     addRadiance(params.sums, number, albedoOf(attributeAt(true, hit)) * light);
 }

@@ -43,6 +43,6 @@ void main()
         direction += rayOffset(pixelOffset(pixel, size), params.half_pixel_x, params.half_pixel_y);
     uint slot = kNoFace;
     if (exists)
-        slot = insertFace(hitCell(hit), normalOfHit(hitFace(hit), direction));
+        slot = insertFace(hitCell(hit), normalOfHit(hitFace(hit), direction), 0u);
     wantFace(slot, kFaceSeen, wantedList(params.frame));
 }

@@ -11,12 +11,12 @@
 namespace zvo::test
 {
 
-std::map<FaceName, FaceLight> facesOf(RadianceCache& cache)
+std::map<FaceName, FaceLight> facesOf(RadianceCache& cache, std::uint32_t level)
 {
-    return facesOf(device().download(cache.faces()));
+    return facesOf(device().download(cache.faces()), level);
 }
 
-std::map<FaceName, FaceLight> facesOf(std::span<const gpu::KeptFace> table)
+std::map<FaceName, FaceLight> facesOf(std::span<const gpu::KeptFace> table, std::uint32_t level)
 {
     std::map<FaceName, FaceLight> faces;
     for (const gpu::KeptFace& kept : table)
@@ -28,6 +28,10 @@ std::map<FaceName, FaceLight> facesOf(std::span<const gpu::KeptFace> table)
         const std::uint64_t key = (kept.key.x & 0x7FFFFFFFU) | (std::uint64_t{kept.key.y & 0x7FFFFFFFU} << 31);
         const auto bits = [](std::uint64_t word, std::uint32_t first, std::uint32_t count)
         { return static_cast<std::uint32_t>((word >> first) & ((std::uint64_t{1} << count) - 1)); };
+        if (bits(key, 57, 5) != level)
+        {
+            continue;
+        }
         const std::uint64_t light = kept.light.x | (std::uint64_t{kept.light.y} << 32);
         const double unit = std::ldexp(1.0, static_cast<int>(bits(light, 48, 6)) - 37);
         const FaceName name = {{bits(key, 0, 18), bits(key, 18, 18), bits(key, 36, 18)}, bits(key, 54, 3)};

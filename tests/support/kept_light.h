@@ -36,9 +36,9 @@ struct FaceLight
     glm::uvec2 words{0U}; // as the device has it
 };
 
-/// All faces of a table, read without the code of the kernels.
-std::map<FaceName, FaceLight> facesOf(std::span<const gpu::KeptFace> table);
-std::map<FaceName, FaceLight> facesOf(RadianceCache& cache);
+/// All faces of a table, or all bricks of a level, read without the code of the kernels. Cells are those of the level.
+std::map<FaceName, FaceLight> facesOf(std::span<const gpu::KeptFace> table, std::uint32_t level = 0);
+std::map<FaceName, FaceLight> facesOf(RadianceCache& cache, std::uint32_t level = 0);
 
 /// Runs frames of a tracer, which has a size.
 void runFrames(RadianceTracer& tracer, const DeviceTree& tree, DeviceEnvironment& environment, const ViewCamera& view,

@@ -76,18 +76,24 @@ RadianceCache::Frame::Frame(vk::Device& device, std::uint32_t frame_faces, std::
     // The camera lists as many faces as pixels want one, and the paths of a frame as many as there are.
     const std::uint64_t wanted_max = faces + wantingPixels(width, height);
     const std::uint64_t pixels = std::uint64_t{width} * height;
-    device.memory().require(PathBatch::bytesFor(faces, 1) + (2 * wanted_max + pixels) * sizeof(gpu::uint), kPurpose);
+    const std::uint64_t brick_count = gpu::kBrickLevels * std::uint64_t{faces};
+    device.memory().require(PathBatch::bytesFor(faces, 1) + (2 * wanted_max + pixels) * sizeof(gpu::uint) +
+                                brick_count * (sizeof(gpu::uint) + sizeof(gpu::BrickSum)),
+                            kPurpose);
     for (vk::BufferOf<gpu::uint>& slots : wanted)
     {
         slots = {device, "radiance/wanted", wanted_max};
     }
-    batch = {device, faces, 1, gpu::kWantedOdd + 1};
+    batch = {device, faces, 1, gpu::kFirstBricks + gpu::kBrickLevels};
+    bricks = {device, "radiance/bricks", brick_count};
+    sums = {device, "radiance/brick_sums", brick_count};
     direct = {device, "radiance/direct", pixels};
 }
 
 std::uint64_t RadianceCache::Frame::bytes() const
 {
-    return wanted[0].bytes() + wanted[1].bytes() + batch.bytes() + direct.bytes() + direct_lists.bytes();
+    return wanted[0].bytes() + wanted[1].bytes() + batch.bytes() + bricks.bytes() + sums.bytes() + direct.bytes() +
+           direct_lists.bytes();
 }
 
 std::uint64_t RadianceCache::bytes() const
@@ -146,10 +152,12 @@ void RadianceCache::clear(vk::FrameGraph& graph, std::uint32_t frame)
         graph.fill(m_table->counters, 0);
         graph.fill(m_status, 0);
         graph.fill(batch.lists, 0);
+        graph.fill(m_buffers->sums, 0);
         return;
     }
     graph.fill(batch.lists, 0, 0, kWords);
     graph.fill(batch.lists, 0, wantedList(frame + 1) * kWords, kWords);
+    graph.fill(batch.lists, 0, gpu::kFirstBricks * kWords, gpu::kBrickLevels * kWords);
     graph.fill(m_table->counters, 0, gpu::kCountersOfFrame,
                sizeof(gpu::RadianceCounters) / sizeof(gpu::uint) - gpu::kCountersOfFrame);
 }
@@ -215,6 +223,7 @@ void RadianceCache::purge(vk::FrameGraph& graph, std::uint32_t age_max)
     graph.fill(m_table->states, 0);
     graph.fill(m_table->counters, 0);
     graph.fill(m_buffers->batch.lists, 0);
+    graph.fill(m_buffers->sums, 0);
     vk::Pass pass = graph.addPass(gpu::radiance::Purge{});
     gpu::RadiancePurgeParams params{};
     params.faces = pass.readWrite(m_table->faces);
@@ -252,6 +261,10 @@ void RadianceCache::update(vk::FrameGraph& graph, const DeviceTree& tree, Device
     want(graph, work);
     tally(graph, work);
     begin(graph, work);
+    for (std::uint32_t level = 2; level <= gpu::kBrickLevels; ++level)
+    {
+        surround(graph, level);
+    }
     const PathLight light = {.tree = tree,
                              .environment = environment,
                              .lights = m_lights,
@@ -265,6 +278,10 @@ void RadianceCache::update(vk::FrameGraph& graph, const DeviceTree& tree, Device
     addMetLight(graph, light, m_buffers->batch, 0, 0);
     addChosenLight(graph, light, m_buffers->batch, 0, 0);
     apply(graph, work);
+    for (std::uint32_t level = 1; level <= gpu::kBrickLevels; ++level)
+    {
+        fold(graph, work, level);
+    }
     m_frame = work.frame + 1;
 }
 
@@ -311,10 +328,10 @@ void RadianceCache::begin(vk::FrameGraph& graph, const Work& work)
     const bool emits = hasEmission(work.tree);
     vk::Pass pass = graph.addPass(gpu::radiance::Begin{.node_levels = work.tree.grid.nodeLevels(), .emission = emits});
     gpu::RadianceBeginParams params{};
-    params.faces = pass.read(m_table->faces);
+    params.faces = pass.readWrite(m_table->faces);
     params.states = pass.readWrite(m_table->states);
     params.wanted = pass.read(m_buffers->wanted.at(work.frame % 2));
-    params.counters = pass.read(m_table->counters);
+    params.counters = pass.readWrite(m_table->counters);
     params.gives = pass.read(work.environment.gives());
     if (emits)
     {
@@ -325,12 +342,31 @@ void RadianceCache::begin(vk::FrameGraph& graph, const Work& work)
     params.rays = pass.readWrite(batch.rays[0]);
     params.path_states = pass.readWrite(batch.states[0]);
     params.radiance = pass.readWrite(batch.radiance);
+    params.bricks = pass.readWrite(m_buffers->bricks);
     params.batch = static_cast<std::uint32_t>(batch.capacity());
+    params.run_count = m_table->run_count;
     params.frame = work.frame;
     params.sample_index = work.frame;
     params.seed = work.options.seed;
     pass.dispatchIndirect(batch.lists, listArgs(wantedList(work.frame), gpu::kListPaths), params,
                           divideUp(m_buffers->wanted[0].count(), gpu::kPathGroup));
+}
+
+void RadianceCache::surround(vk::FrameGraph& graph, std::uint32_t level)
+{
+    PathBatch& batch = m_buffers->batch;
+    vk::Pass pass = graph.addPass(gpu::radiance::Surround{});
+    gpu::RadianceSurroundParams params{};
+    params.faces = pass.readWrite(m_table->faces);
+    params.states = pass.readWrite(m_table->states);
+    params.counters = pass.readWrite(m_table->counters);
+    params.lists = pass.readWrite(batch.lists);
+    params.bricks = pass.readWrite(m_buffers->bricks);
+    params.batch = static_cast<std::uint32_t>(batch.capacity());
+    params.run_count = m_table->run_count;
+    params.level = level;
+    pass.dispatchIndirect(batch.lists, listArgs(gpu::kFirstBricks + level - 2, gpu::kListPaths), params,
+                          divideUp(m_buffers->faces, gpu::kPathGroup));
 }
 
 void RadianceCache::gather(vk::FrameGraph& graph, const Work& work)
@@ -371,11 +407,36 @@ void RadianceCache::apply(vk::FrameGraph& graph, const Work& work)
     params.numbers = pass.read(batch.numbers);
     params.radiance = pass.read(batch.radiance);
     params.lists = pass.readWrite(batch.lists);
+    params.sums = pass.readWrite(m_buffers->sums);
+    params.batch = static_cast<std::uint32_t>(batch.capacity());
+    params.run_count = m_table->run_count;
     params.frame = work.frame;
     params.window = std::clamp(work.window, 1U, gpu::kKeptWeightMax);
     params.touched_window = work.moves ? std::min(params.window, gpu::kTouchedSamples) : params.window;
     params.moved_window = work.moves ? std::min(params.window, gpu::kMovedSamples) : params.window;
     pass.dispatchIndirect(batch.lists, listArgs(0, gpu::kListPaths), params,
+                          divideUp(m_buffers->faces, gpu::kPathGroup));
+}
+
+void RadianceCache::fold(vk::FrameGraph& graph, const Work& work, std::uint32_t level)
+{
+    PathBatch& batch = m_buffers->batch;
+    const auto windowOf = [&](std::uint32_t samples)
+    { return std::clamp(gpu::kBrickFaces * std::min(samples, work.window), 1U, gpu::kKeptWeightMax); };
+    vk::Pass pass = graph.addPass(gpu::radiance::Fold{});
+    gpu::RadianceFoldParams params{};
+    params.faces = pass.readWrite(m_table->faces);
+    params.states = pass.readWrite(m_table->states);
+    params.bricks = pass.read(m_buffers->bricks);
+    params.lists = pass.readWrite(batch.lists);
+    params.sums = pass.readWrite(m_buffers->sums);
+    params.batch = static_cast<std::uint32_t>(batch.capacity());
+    params.run_count = m_table->run_count;
+    params.frame = work.frame;
+    params.level = level;
+    params.window = windowOf(work.window);
+    params.moved_window = work.moves ? windowOf(gpu::kMovedSamples) : params.window;
+    pass.dispatchIndirect(batch.lists, listArgs(gpu::kFirstBricks + level - 1, gpu::kListPaths), params,
                           divideUp(m_buffers->faces, gpu::kPathGroup));
 }
 

@@ -111,6 +111,8 @@ private:
         std::uint32_t height;
         std::array<vk::BufferOf<gpu::uint>, 2> wanted; // slots of even and odd frames
         PathBatch batch;
+        vk::BufferOf<gpu::uint> bricks;               // [kBrickLevels][faces] slots of those that are listed
+        vk::BufferOf<gpu::BrickSum> sums;             // [kBrickLevels][faces] of them; 0 between frames
         vk::BufferOf<gpu::uint> direct;               // [pixels] numbers of those that see light directly
         vk::BufferOf<gpu::DispatchArgs> direct_lists; // [kListElements]
     };
@@ -125,6 +127,8 @@ private:
     void begin(vk::FrameGraph& graph, const Work& work);
     void gather(vk::FrameGraph& graph, const Work& work);
     void apply(vk::FrameGraph& graph, const Work& work);
+    void surround(vk::FrameGraph& graph, std::uint32_t level);
+    void fold(vk::FrameGraph& graph, const Work& work, std::uint32_t level);
 
     vk::Device& m_device;
     vk::DeletionQueue* m_deletion_queue;

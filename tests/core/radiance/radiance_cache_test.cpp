@@ -209,6 +209,89 @@ TEST(RadianceBytes, AreTheSameInEveryRun)
     }
 }
 
+// The brick of a level around a face, or around a brick of the level below.
+FaceName around(const FaceName& name)
+{
+    return {name.cell / 4U, name.normal};
+}
+
+// After the first frame each face has one sample at most, and no brick has had any light to share. So the bricks of
+// level 1 keep the mean of the samples in them, and those of the next levels that of the bricks in them.
+TEST(RadianceBricks, KeepMeansOfWhatIsInThem)
+{
+    Hall hall;
+    RadianceTracer tracer(device().device());
+    tracer.resize(64, 64);
+    runFrames(tracer, hall.tree, hall.dark, hall.view, 1, {.faces = 300});
+    for (std::uint32_t level = 0; level < gpu::kBrickLevels; ++level)
+    {
+        struct Sum
+        {
+            glm::dvec3 light{0.0};
+            std::uint32_t count = 0;
+        };
+        std::map<FaceName, Sum> sums;
+        for (const auto& [name, face] : facesOf(tracer.cache(), level))
+        {
+            if (face.samples != 0)
+            {
+                Sum& sum = sums[around(name)];
+                sum.light += face.radiance;
+                ++sum.count;
+            }
+        }
+        const auto bricks = facesOf(tracer.cache(), level + 1);
+        ASSERT_EQ(bricks.size(), sums.size());
+        bool has_several = false;
+        for (const auto& [name, brick] : bricks)
+        {
+            const Sum& sum = sums.at(name);
+            EXPECT_EQ(brick.samples, sum.count);
+            has_several = has_several || sum.count > 2;
+            for (int channel = 0; channel < 3; ++channel)
+            {
+                // Steps of the sums and of what is kept, rounded at random.
+                EXPECT_NEAR(brick.radiance[channel], sum.light[channel] / sum.count, 1e-4 + 1e-4 * sum.light[channel]);
+            }
+        }
+        EXPECT_TRUE(has_several || level > 0);
+    }
+}
+
+// A wall stands in a brick, with a lamp on one side: no light comes through on the floor, and it is bright right beside
+// the wall.
+TEST(RadianceBricks, ShareNoLightThroughWalls)
+{
+    std::vector<LitVoxel> voxels;
+    test::addBox(voxels, {0, 0, 0}, {16, 1, 16}, white());
+    test::addBox(voxels, {6, 1, 0}, {7, 8, 16}, white());
+    test::addBox(voxels, {2, 7, 7}, {4, 8, 9}, lamp());
+    const DeviceTree tree = test::litTree(device(), voxels, 4);
+    DeviceEnvironment dark = constantSky(glm::vec3(0.0F));
+    RadianceTracer tracer(device().device());
+    tracer.resize(64, 64);
+    runFrames(tracer, tree, dark, ViewCamera::lookAt({9.0, 40.0, 9.0}, {8.0, 0.0, 8.0}, 0.5), 160, {});
+    std::uint32_t dark_faces = 0;
+    std::uint32_t lit_faces = 0;
+    for (const auto& [name, face] : facesOf(tracer.cache()))
+    {
+        if (name.cell.y == 0 && name.cell.x > 6)
+        {
+            EXPECT_EQ(face.radiance, glm::dvec3(0.0)) << name.cell.x << ' ' << name.cell.z;
+            ++dark_faces;
+        }
+        if (name.cell.y == 0 && name.cell.x == 5 && name.cell.z > 4 && name.cell.z < 12)
+        {
+            EXPECT_GT(face.radiance.r, 0.01);
+            ++lit_faces;
+        }
+    }
+    EXPECT_GT(dark_faces, 100U);
+    EXPECT_GT(lit_faces, 4U);
+    // Bricks are not walls.
+    EXPECT_GT(facesOf(tracer.cache(), 1).at({{1, 0, 2}, 1}).radiance.r, 0.0);
+}
+
 // A frame takes as many faces as it may, or all, and each gets its turn.
 TEST(RadianceBudget, BoundsTheFacesOfAFrame)
 {

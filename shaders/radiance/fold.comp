@@ -1,0 +1,72 @@
+#version 460
+// SPDX-License-Identifier: MIT
+// Adds the sums of the frame to the means of the bricks of a level, and the means of the sums to the sums of the bricks
+// around them. Then the sums are 0 again, and the bricks are not listed.
+#extension GL_GOOGLE_include_directive : require
+#include "radiance/radiance.h"
+#include "lib/bound.glsl"
+#include "lib/dispatch.glsl"
+#include "lib/sobol.glsl"
+
+layout(local_size_x = kRadianceGroup) in;
+layout(push_constant, scalar) uniform Push
+{
+    RadianceFoldParams params;
+};
+
+#include "path/lists.glsl"
+#include "radiance/face_key.glsl"
+#include "radiance/face_table.glsl"
+#include "radiance/kept_light.glsl"
+#include "radiance/brick_sum.glsl"
+
+// The weight of the last `added` of so many samples, in a mean in which the n-th weighs as much as its number.
+float weightOfLast(uint added, uint samples)
+{
+    float last = float(min(added, samples));
+    float all = float(samples);
+    return last * (2.0 * all - last + 1.0) / (all * (all + 1.0));
+}
+
+// FaceState::own of the brick with what the sums tell.
+uvec2 spreadAfter(uvec2 words, BrickSum sum)
+{
+    uint count = sum.counts / kSumOfSpread;
+    uint samples = min(words.y + count, kKeptWeightMax);
+    precise vec2 added = vec2(sum.apart, sum.between) / float((1u << kSpreadShift) * max(count, 1u));
+    precise vec2 moved = mix(unpackHalf2x16(words.x), added, weightOfLast(count, max(samples, 1u)));
+    return count == 0u ? words : uvec2(packHalf2x16(moved), samples);
+}
+
+void main()
+{
+    uint i = threadIndex();
+    if (i >= listLength(kFirstBricks + params.level - 1u, kListPaths))
+        return;
+    uint index = (params.level - 1u) * params.batch + i;
+    uint slot = params.bricks.data[index];
+    BrickSum sum = params.sums.data[index];
+    params.sums.data[index] = BrickSum(uvec3(0u), 0u, 0, 0);
+    KeptFace face = loadFace(slot);
+    uvec2 own = params.states.data[slot].own;
+    params.states.data[slot] = FaceState(params.frame & kMarkFrames, 0u, spreadAfter(own, sum));
+    uint added = sum.counts & (kSumOfMove - 1u);
+    if (added == 0u)
+        return;
+
+    vec3 thresholds = thresholdsOf(hashPair(hashPair(face.key.y, face.key.x), params.frame));
+    uint moved = sum.counts & (kSumOfSpread - kSumOfMove);
+    uint samples = min(keptWeight(face.light) + added, moved != 0u ? params.moved_window : params.window);
+    precise vec3 sampled = vec3(sum.light) * (stepOfBrick(face.light) / float(added));
+    precise vec3 mean = mix(keptRadiance(face.light), sampled, weightOfLast(added, samples));
+    uint64_t_Ptr(uint64_t(params.faces)).data[2u * slot + 1u] = packUint2x32(packKept(mean, samples, thresholds));
+
+    if (params.level < kBrickLevels)
+    {
+        KeptFace around;
+        uint outer = findFace(cellOfFace(face.key) >> 2, normalOfFace(face.key), params.level + 1u, around);
+        if (outer != kNoFace)
+            addLight(params.states.data[outer].recent, stepOfBrick(around.light), sampled, thresholds,
+                     kSumOfSample + (moved != 0u ? kSumOfMove : 0u));
+    }
+}
