@@ -21,8 +21,8 @@ FaceTable params;
 #include "radiance/between_faces.glsl"
 
 const uint kPointRaysMax = 1024u;
-const uint kSettledSamples = 8u;      // from which on a face's light counts in full where it is mixed with others'
-const float kFacingMin = 1.0 / 64.0;  // squared component of a normal below which faces of an axis do not count
+const uint kSettledSamples = 8u;         // from which on a face counts in full where it is mixed with others
+const float kFacingMin = 1.0 / 64.0;     // squared component of a normal below which faces of an axis do not count
 const float kPlaneShareMin = 1.0 / 16.0; // of a plane of faces, where a point is on the next one
 
 // Selects the kept light for what follows. Whether there is any.
