@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "bench/bench_kept.h"
 
+#include "bench/bench_scenes.h"
+#include "bench/kept_motion.h"
 #include "bench/lit_scenes.h"
 #include "bench/picture_quality.h"
 #include "bench/table.h"
@@ -19,6 +21,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <filesystem>
+#include <iterator>
 #include <optional>
 #include <string>
 #include <vector>
@@ -41,6 +45,7 @@ struct KeptRow
     std::string integrator;
     std::uint32_t count = 0; // paths a pixel, or frames before the picture
     std::optional<PictureQuality> quality;
+    std::optional<double> noise;          // error of the reference
     double frame_ms = 0;                  // median of a sample or frame
     double total_ms = 0;                  // of all before the picture
     std::optional<double> paths_of_error; // a pixel that path tracing needs for the same error
@@ -63,8 +68,10 @@ const Columns<KeptRow>& keptColumns()
         {"samples", 7, [](const Row& row) { return fmt::format("{}", row.count); }},
         {"error %", 7,
          [](const Row& row) { return row.quality ? fmt::format("{:.2f}", 100.0 * row.quality->relative) : "-"; }},
+        {"noise %", 7, [](const Row& row) { return row.noise ? fmt::format("{:.2f}", 100.0 * *row.noise) : "-"; }},
         {"PSNR dB", 7, [](const Row& row) { return row.quality ? fmt::format("{:.2f}", row.quality->psnr_db) : "-"; }},
         {"SSIM", 6, [](const Row& row) { return row.quality ? fmt::format("{:.4f}", row.quality->ssim) : "-"; }},
+        {"FLIP", 6, [](const Row& row) { return row.quality ? fmt::format("{:.4f}", row.quality->flip) : "-"; }},
         {"frame ms", 8, [](const Row& row) { return fmt::format("{:.1f}", row.frame_ms); }},
         {"total ms", 8, [](const Row& row) { return fmt::format("{:.0f}", row.total_ms); }},
         {"as paths", 8, [](const Row& row) { return optionalText(row.paths_of_error, 0); }},
@@ -94,12 +101,26 @@ public:
     {
         PathTracer tracer(m_device.device());
         tracer.resize(m_width, m_height);
+        const std::uint32_t half_samples = samples / 2;
+        HdrImage half;
         for (std::uint32_t i = 0; i < samples; ++i)
         {
             addPath(tracer, {.bounces = kReferenceBounces, .seed = 1});
+            if (i + 1 == half_samples)
+            {
+                half = imageOf(tracer.picture());
+            }
             told(i + 1);
         }
-        return imageOf(tracer.picture());
+        HdrImage reference = imageOf(tracer.picture());
+        if (half_samples != 0)
+        {
+            // The two halves of an even number of samples are twice as far apart as the whole is from either, and that
+            // as far as it is from what it would become.
+            m_noise = meanOf(relativeErrors(reference, half)) *
+                      std::sqrt(static_cast<double>(half_samples) / (samples - half_samples));
+        }
+        return reference;
     }
 
     /// Primary rays with a ray to the sun.
@@ -137,6 +158,7 @@ public:
             }
             KeptRow row = rowOf("path", count);
             row.quality = compareTo(reference, imageOf(tracer.picture()));
+            row.noise = m_noise;
             setTimes(row, ms);
             rows.push_back(row);
         }
@@ -167,6 +189,7 @@ public:
             }
             KeptRow row = rowOf("cached", count);
             row.quality = compareTo(reference, imageOf(tracer.picture()));
+            row.noise = m_noise;
             setTimes(row, ms);
             // The error of paths falls with the square root of their number.
             row.paths_of_error = path.count * std::pow(path.quality->relative / row.quality->relative, 2.0);
@@ -215,10 +238,12 @@ private:
     const LitScene& m_scene;
     std::uint32_t m_width;
     std::uint32_t m_height;
+    std::optional<double> m_noise; // of the reference
     TraceCamera m_camera;
 };
 
-Json keptReportJson(const vk::DeviceReport& device, const BenchOptions& options, const std::vector<KeptRow>& rows)
+Json keptReportJson(const vk::DeviceReport& device, const BenchOptions& options, const std::vector<KeptRow>& rows,
+                    std::span<const MotionResult> motion)
 {
     Json json = headJson("zvo.bench_kept/1", device);
     json["width"] = options.path_width;
@@ -235,8 +260,10 @@ Json keptReportJson(const vk::DeviceReport& device, const BenchOptions& options,
         if (row.quality)
         {
             entry["relative_error"] = row.quality->relative;
+            entry["reference_error"] = row.noise ? Json(*row.noise) : Json(nullptr);
             entry["psnr_db"] = row.quality->psnr_db;
             entry["ssim"] = row.quality->ssim;
+            entry["flip"] = row.quality->flip;
         }
         if (row.paths_of_error)
         {
@@ -245,21 +272,30 @@ Json keptReportJson(const vk::DeviceReport& device, const BenchOptions& options,
         }
         json["rows"].push_back(std::move(entry));
     }
+    json["motion"] = motionJson(motion);
     return json;
 }
 
-std::string keptTable(const vk::DeviceReport& device, const BenchOptions& options, const std::vector<KeptRow>& rows)
+std::string keptTable(const vk::DeviceReport& device, const BenchOptions& options, const std::vector<KeptRow>& rows,
+                      std::span<const MotionResult> motion)
 {
     std::string text =
         fmt::format("zvo {} on {} ({}, {}). Pictures of {} x {} pixels beside one of {} paths a pixel with another "
-                    "seed. Light that "
-                    "is kept is sampled on {} faces a frame; a picture is {} frames behind those that are named. GPU "
-                    "milliseconds.\n\n{}",
+                    "seed. Light that is kept is sampled on {} faces a frame.\n\n",
                     ZVO_VERSION_TEXT, device.name, device.type, device.driver, options.path_width, options.path_height,
-                    options.reference_samples, RadianceOptions().faces, kPictureFrames, columnNames(keptColumns()));
-    for (const KeptRow& row : rows)
+                    options.reference_samples, RadianceOptions().faces);
+    if (!rows.empty())
     {
-        text += columnValues(keptColumns(), row);
+        text += fmt::format("A picture of it is {} frames behind those that are named. GPU milliseconds.\n\n{}",
+                            kPictureFrames, columnNames(keptColumns()));
+        for (const KeptRow& row : rows)
+        {
+            text += columnValues(keptColumns(), row);
+        }
+    }
+    if (!motion.empty())
+    {
+        text += fmt::format("{}{}", rows.empty() ? "" : "\n", motionText(motion));
     }
     return text;
 }
@@ -272,32 +308,44 @@ void benchKept(const BenchOptions& options)
     constexpr std::array<std::uint32_t, 3> kFrameCounts = {16, 64, 256};
     const std::vector<std::uint32_t> depths = {kKeptDepth};
     std::optional<Output> report = openReport(options.output);
+    BenchOptions still = options;
+    still.scenes = benchScenes(options);
+    std::vector<std::filesystem::path> scene_files;
+    std::ranges::copy_if(still.scenes, std::back_inserter(scene_files), isSceneFile);
+    std::erase_if(still.scenes, isSceneFile);
+    const std::vector<MovingScene> moving = loadMovingScenes(options, scene_files);
+    const bool has_still = !still.scenes.empty(); // else it would be the usual ones
     vk::HeadlessDevice device(headlessOptions(options.device), zvoKernels());
     std::vector<KeptRow> rows;
-    Progress progress(litSceneCount(options, depths));
-    forEachLitScene(device, options, depths, static_cast<double>(options.path_width) / options.path_height,
-                    [&](LitScene& scene)
-                    {
-                        progress.begin(fmt::format("{} by {}", scene.name, scene.light_name));
-                        KeptBench bench(device, scene, options.path_width, options.path_height);
-                        const HdrImage reference = bench.reference(
-                            options.reference_samples, [&](std::uint32_t samples)
+    Progress progress((has_still ? litSceneCount(still, depths) : 0) + motionCount(options, moving));
+    const auto measureStill = [&](LitScene& scene)
+    {
+        progress.begin(fmt::format("{} by {}", scene.name, scene.light_name));
+        KeptBench bench(device, scene, options.path_width, options.path_height);
+        const HdrImage reference =
+            bench.reference(options.reference_samples, [&](std::uint32_t samples)
                             { progress.within(static_cast<double>(samples) / options.reference_samples); });
-                        rows.push_back(bench.primary());
-                        const std::vector<KeptRow> paths = bench.paths(reference, kPathCounts);
-                        rows.insert(rows.end(), paths.begin(), paths.end());
-                        const std::vector<KeptRow> kept = bench.kept(reference, kFrameCounts, paths.back());
-                        rows.insert(rows.end(), kept.begin(), kept.end());
-                    });
+        rows.push_back(bench.primary());
+        const std::vector<KeptRow> paths = bench.paths(reference, kPathCounts);
+        rows.insert(rows.end(), paths.begin(), paths.end());
+        const std::vector<KeptRow> kept = bench.kept(reference, kFrameCounts, paths.back());
+        rows.insert(rows.end(), kept.begin(), kept.end());
+    };
+    if (has_still)
+    {
+        forEachLitScene(device, still, depths, static_cast<double>(options.path_width) / options.path_height,
+                        measureStill);
+    }
+    const std::vector<MotionResult> motion = measureMotion(device, options, moving, kKeptDepth, progress);
     clearProgressBar();
     if (options.output.json != "-")
     {
-        Output("-", true).write(keptTable(device.device().report(), options, rows));
+        Output("-", true).write(keptTable(device.device().report(), options, rows, motion));
     }
     checkValidation(device);
     if (report)
     {
-        writeReport(*report, keptReportJson(device.device().report(), options, rows));
+        writeReport(*report, keptReportJson(device.device().report(), options, rows, motion));
     }
 }
 

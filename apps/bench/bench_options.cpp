@@ -30,6 +30,7 @@ scenes of the thesis, in which something moves. bench/results-page makes a page 
 
 --denoise: pictures of 1 to 64 paths a pixel, with and without denoising, beside one of very many.
 --kept: pictures of light that is kept on voxels, beside one of very many paths; primary rays and paths for comparison.
+  Of scene files: how fast light follows what moves in them, and how much it flickers.
 --path: the rays of paths beside primary rays and Embree's; each way of finding light beside chance.
 --tune: choices one after the other, their values in turns.
 --report: the passes that take longest, with their time for each triangle, voxel, node and ray.
@@ -42,6 +43,7 @@ Examples:
   zvo bench --dynamic scenes/atrium_knot.scene.json
   zvo bench --edit scenes/atrium.glb --structure svdag
   zvo bench --denoise scenes/atrium.glb --reference 4096
+  zvo bench --kept scenes/atrium.glb scenes/atrium_knot.scene.json --size 160x90
   zvo bench --path scenes/atrium.glb --environment forest.hdr
   zvo bench --tune scenes/atrium.glb
   zvo bench --report bench.json --targets bench/targets.json)";
@@ -89,8 +91,10 @@ CLI::App* addBench(CLI::App& app, BenchOptions& options)
         ->excludes("--baselines")
         ->excludes("--up")
         ->excludes("--scale");
-    addValue(*bench, "--structure", options.structure, parseStructure, "svo|svdag",
-             "with --dynamic and --edit, what stands still, or is edited, is an octree or a DAG (default svo)");
+    addValue(
+        *bench, "--structure", options.structure, parseStructure, "svo|svdag",
+        "with --dynamic and --edit, and --kept of scene files, what stands still, or is edited, is an octree or a DAG "
+        "(default svo)");
     bench
         ->add_flag("--edit", options.edit,
                    "measure instead strokes of a brush: dabs, undo and redo, by radius and by number of strokes")

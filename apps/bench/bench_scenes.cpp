@@ -106,9 +106,9 @@ void checkPresent(const std::vector<fs::path>& paths, bool allows_scene_files)
     {
         if (isSceneFile(path) && !allows_scene_files)
         {
-            throw Error(
-                ErrorCode::Usage,
-                fmt::format("{} is a scene file, which bench measures with --dynamic and --baselines", path.string()));
+            throw Error(ErrorCode::Usage,
+                        fmt::format("{} is a scene file, which bench measures with --dynamic, --kept and --baselines",
+                                    path.string()));
         }
         std::error_code ignored;
         if (!isSceneFile(path) && !fs::exists(path, ignored))
@@ -123,7 +123,7 @@ void checkPresent(const std::vector<fs::path>& paths, bool allows_scene_files)
 std::vector<fs::path> benchScenes(const BenchOptions& options)
 {
     std::vector<fs::path> paths = scenesOf(options);
-    checkPresent(paths, options.baselines);
+    checkPresent(paths, options.baselines || options.kept);
     return paths;
 }
 

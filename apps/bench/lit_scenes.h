@@ -26,8 +26,12 @@ struct LitScene
     DeviceEnvironment& light;
 };
 
-/// Builds the scenes of a benchmark at each depth, and calls visit for each of them by day, with sun and simple sky,
-/// and at night, if it has voxels that give off light. depths: where options have none. Throws Error.
+/// The light of a scene of that name by day, a sun and the simple sky, or at night, none from outside.
+DeviceEnvironment lightFor(vk::HeadlessDevice& device, std::string_view scene, bool by_day);
+
+/// Builds the scenes of a benchmark at each depth, and calls visit for each of them by day,
+/// and at night, if it has voxels that give off light. Where options name no camera, Sponza is seen from inside.
+/// depths: where options have none. Throws Error.
 void forEachLitScene(vk::HeadlessDevice& device, const BenchOptions& options, const std::vector<std::uint32_t>& depths,
                      double aspect, const std::function<void(LitScene&)>& visit);
 

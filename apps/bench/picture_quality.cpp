@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "bench/picture_quality.h"
 
+#include "bench/flip.h"
+
 #include <glm/glm.hpp>
 
 #include <algorithm>
@@ -118,25 +120,37 @@ double meanSsim(const std::vector<glm::dvec3>& a, const std::vector<glm::dvec3>&
     return sum / (static_cast<double>(width) * height);
 }
 
-// The mean error of luminance over that of the reference. Dark pixels count as brighter ones: a hundredth of the mean
-// is added.
-double relativeError(const HdrImage& reference, const HdrImage& picture)
+} // namespace
+
+// Dark pixels count as brighter ones, so that they do not decide.
+std::vector<double> relativeErrors(const HdrImage& reference, const HdrImage& picture)
 {
-    double mean = 0;
-    for (const glm::vec3& texel : reference.texels)
+    const std::vector<double> expected = luminancesOf(reference);
+    const double least = std::max(0.01 * meanOf(expected), 1e-20);
+    std::vector<double> errors = luminancesOf(picture);
+    for (std::size_t i = 0; i < errors.size(); ++i)
     {
-        mean += luminanceOf(texel) / static_cast<double>(reference.texels.size());
+        errors[i] = std::abs(errors[i] - expected[i]) / (expected[i] + least);
     }
-    double sum = 0;
-    for (std::size_t i = 0; i < reference.texels.size(); ++i)
-    {
-        const double expected = luminanceOf(reference.texels[i]);
-        sum += std::abs(luminanceOf(picture.texels[i]) - expected) / std::max(expected + 0.01 * mean, 1e-20);
-    }
-    return sum / static_cast<double>(reference.texels.size());
+    return errors;
 }
 
-} // namespace
+std::vector<double> luminancesOf(const HdrImage& picture)
+{
+    std::vector<double> luminances;
+    luminances.reserve(picture.texels.size());
+    for (const glm::vec3& texel : picture.texels)
+    {
+        luminances.push_back(luminanceOf(texel));
+    }
+    return luminances;
+}
+
+double meanOf(std::span<const double> values)
+{
+    return values.empty() ? 0.0
+                          : std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+}
 
 PictureQuality compareTo(const HdrImage& reference, const HdrImage& picture)
 {
@@ -150,7 +164,7 @@ PictureQuality compareTo(const HdrImage& reference, const HdrImage& picture)
     }
     const double mean_square = squares / static_cast<double>(a.size());
     return {-10 * std::log10(std::max(mean_square, 1e-12)), meanSsim(a, b, reference.width, reference.height),
-            relativeError(reference, picture)};
+            meanOf(flipOf(a, b, reference.width, reference.height)), meanOf(relativeErrors(reference, picture))};
 }
 
 } // namespace zvo::cli

@@ -18,11 +18,12 @@ FaceTable params;
 #include "radiance/face_key.glsl"
 #include "radiance/face_table.glsl"
 #include "radiance/kept_light.glsl"
-#include "radiance/between_faces.glsl"
+#include "radiance/light_of_brick.glsl"
 
 const uint kPointRaysMax = 1024u;
-const uint kSettledSamples = 8u;         // from which on a face counts in full where it is mixed with others
-const float kFacingMin = 1.0 / 64.0;     // squared component of a normal below which faces of an axis do not count
+const uint kSettledSamples = 8u;      // from which on a face's light counts in full where it is mixed with others'
+const float kBrickKnown = 1.0 / 16.0; // how well light is known that is a brick's
+const float kFacingMin = 1.0 / 64.0;  // squared component of a normal below which faces of an axis do not count
 const float kPlaneShareMin = 1.0 / 16.0; // of a plane of faces, where a point is on the next one
 
 // Selects the kept light for what follows. Whether there is any.
@@ -78,7 +79,7 @@ vec4 lightOfSum(FaceSum sum)
 }
 
 // Light of the faces with a normal around a point (in voxels of the grid): of the planes of faces before and behind it,
-// in between; else of those one voxel further; else of cells beside.
+// in between; else of those one voxel further; else of cells beside; else of the least brick around it that keeps any.
 vec4 lightNearPoint(vec3 point, uint normal)
 {
     ivec3 along = ivec3(abs(normalAxis(normal)));
@@ -94,13 +95,15 @@ vec4 lightNearPoint(vec3 point, uint normal)
         addPlane(cell - ring * along, normal, offset, towards, 1.0 - ahead, sum);
         addPlane(cell + (ring + 1) * along, normal, offset, towards, ahead, sum);
     }
-    return lightOfSum(sum);
+    vec4 brick = lightOfBrick(uvec3(ivec3(floor(point))) & kHitCoordinateMask, normal, sum.weight == 0.0);
+    return sum.weight > 0.0 ? lightOfSum(sum) : vec4(brick.rgb, kBrickKnown * brick.w);
 }
 
 // The light that arrives at a point of a surface with this normal (length 1), irradiance over pi: the radiance that the
 // surface would have if it were white. It is that of kept faces within two voxels, which face along the axes as the
-// normal does, by the squares of its components. w: how well it is known, from 0, where nothing is kept and rgb is 0,
-// to 1: less where faces of an axis are missing, or have few samples.
+// normal does, by the squares of its components; without such faces, that of the least brick of 4^3, 16^3 or 64^3
+// voxels around the point that keeps any. w: how well it is known, from 0, where nothing is kept and rgb is 0, to 1:
+// less where faces of an axis are missing, or have few samples; a 16th where the light is a brick's.
 vec4 zvo_irradiance(KeptLightTable_ConstPtr light, TreeTable_ConstPtr tree, vec3 position, vec3 normal)
 {
     bool has_light = setKeptLight(light);

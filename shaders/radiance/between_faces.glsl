@@ -41,17 +41,3 @@ vec4 lightBetweenFaces(uvec3 cell, uint normal, vec3 place, uint level)
     KeptFace here;
     return lightBetweenFaces(cell, normal, place, level, slot, here);
 }
-
-// The light at a place on a face that no ray has sampled yet, nor any around it: that of the least brick which keeps
-// some. Of a face that needs none, black.
-vec3 lightOfBrick(uvec3 cell, uint normal, bool is_needed)
-{
-    vec3 light = vec3(0.0);
-    for (uint level = 1u; is_needed && level <= kBrickLevels; ++level)
-    {
-        KeptFace face;
-        is_needed = findFace(cell >> (2u * level), normal, level, face) == kNoFace || keptWeight(face.light) == 0u;
-        light = is_needed ? light : keptRadiance(face.light);
-    }
-    return light;
-}

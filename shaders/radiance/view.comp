@@ -35,6 +35,7 @@ layout(push_constant, scalar) uniform Push
 #include "radiance/face_table.glsl"
 #include "radiance/kept_light.glsl"
 #include "radiance/between_faces.glsl"
+#include "radiance/light_of_brick.glsl"
 #include "radiance/hit_loads.glsl"
 #include "radiance/seen_hit.glsl"
 
@@ -61,6 +62,6 @@ void main()
     vec3 point = (origin + hit.t * direction - 1.0) * exp2(2.0 * float(kNodeLevels)) - vec3(hitCell(hit));
     uint normal = normalOfHit(hitFace(hit), direction);
     vec4 sum = lightBetweenFaces(hitCell(hit), normal, point, 0u);
-    vec3 light = sum.rgb / max(sum.w, 1e-6) + lightOfBrick(hitCell(hit), normal, sum.w == 0.0);
+    vec3 light = sum.rgb / max(sum.w, 1e-6) + lightOfBrick(hitCell(hit), normal, sum.w == 0.0).rgb;
     addRadiance(params.sums, number, albedoOf(attributeAt(true, hit)) * light);
 }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
-// PSNR and SSIM against values that follow from their definitions.
+// PSNR, SSIM and FLIP against values that follow from their definitions.
 #include "bench/picture_quality.h"
+
+#include "bench/flip.h"
 
 #include <gtest/gtest.h>
 
@@ -38,6 +40,7 @@ TEST(PictureQuality, OfEqualPictures)
     const PictureQuality quality = compareTo(picture, picture);
     EXPECT_GE(quality.psnr_db, 119.0);
     EXPECT_NEAR(quality.ssim, 1.0, 1e-9);
+    EXPECT_EQ(quality.flip, 0.0);
 }
 
 // Even pictures have no variance: SSIM is what the means give, at borders, too.
@@ -48,6 +51,9 @@ TEST(PictureQuality, OfEvenPictures)
     const double b = codeOf(0.4);
     EXPECT_NEAR(quality.psnr_db, -20 * std::log10(b - a), 1e-3);
     EXPECT_NEAR(quality.ssim, (2 * a * b + 1e-4) / (a * a + b * b + 1e-4), 1e-6);
+    const std::vector<glm::dvec3> codes_a(48, glm::dvec3(a));
+    const std::vector<glm::dvec3> codes_b(48, glm::dvec3(b));
+    EXPECT_NEAR(quality.flip, flipOf(codes_a, codes_b, 8, 6).front(), 1e-4) << "of what is shown";
 }
 
 // Noise of the same mean lowers the structural similarity, more of it by more.
@@ -67,6 +73,7 @@ TEST(PictureQuality, FallsWithNoise)
     const PictureQuality of_much = compareTo(reference, much);
     EXPECT_GT(of_little.psnr_db, of_much.psnr_db + 6);
     EXPECT_GT(of_little.ssim, of_much.ssim);
+    EXPECT_LT(of_little.flip, of_much.flip);
     EXPECT_LT(of_little.ssim, 0.999);
 }
 
