@@ -28,7 +28,6 @@ const uint kFaceKeyTag = 1u << 31; // in both words of a key
 const uint kFaceRun = 8u;          // slots that faces of 2x2x2 cells with the same normal share as their first ones
 const uint kBrickLevels = 3u;      // of bricks: of 4^3, 16^3 and 64^3 voxels
 const uint kFaceProbesMax = 128u;  // slots looked at before the table counts as full
-const uint kBrickLevels = 3u;      // that are kept
 
 /// Where the light that is kept on voxels is in device memory, with the light from outside of the grid.
 struct KeptLightTable
