@@ -42,8 +42,8 @@ struct KeptLightStats
 
 /// Light that is kept on the faces of voxels and gets better from frame to frame (docs/radiance.md), for the host's own
 /// shaders: zvo/trace.glsl looks it up at any point of a surface, without a ray (docs/host-glsl.md). It follows what
-/// moves, brushes and lamps by itself. All frames in flight may use it. Move-only; throws Error{Usage} when it is used
-/// after it was moved from.
+/// moves, brushes, the sun and lamps by itself. All frames in flight may use it. Move-only; throws Error{Usage} when it
+/// is used after it was moved from.
 class ZVO_API KeptLight
 {
 public:
@@ -62,8 +62,8 @@ public:
     /// sees by itself. In another grid than that of the last call, all begins anew; so it does after a call that failed
     /// or whose frame was lost. The environment must live for as long as shaders read.
     ///
-    /// Memory, from the first call on: 36 bytes for each face that there is room for, twice that from when the tree
-    /// changes; about 200 bytes for each of the rays; and what Tracer::tracePaths() takes for lights of the tree. First
+    /// Memory, from the first call on: 48 bytes for each face that there is room for, twice that from when the tree
+    /// changes; about 300 bytes for each of the rays; and what Tracer::tracePaths() takes for lights of the tree. First
     /// stages: ALL_TRANSFER, COMPUTE_SHADER and DRAW_INDIRECT; last stages: COMPUTE_SHADER and ALL_TRANSFER; on
     /// resources of zvo. Before the host's shaders read: Recorder::makeVisible(); before the next call: readers of its
     /// Recorder. Cost: the camera's rays, and two rays for each face that is sampled.
@@ -77,10 +77,11 @@ public:
                 const KeptFrameInfo& info = {});
 
     /// The address of a table for the host's shaders (zvo_KeptLightTable), which stays the same however the light is
-    /// moved. What it says means nothing before the first update().
+    /// moved. What it says means nothing before the first update() that reaches the device.
     [[nodiscard]] std::uint64_t address() const;
 
-    /// Has the next update() begin anew, such as after a cut. Records nothing: shaders see what was kept until then.
+    /// Has the next update() begin anew, such as in another scene. Records nothing: shaders see what was kept until
+    /// then.
     void forget();
 
     /// Counts of the newest update() whose frame is done.

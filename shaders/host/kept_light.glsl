@@ -21,9 +21,9 @@ FaceTable params;
 #include "radiance/light_of_brick.glsl"
 
 const uint kPointRaysMax = 1024u;
-const uint kSettledSamples = 8u;      // from which on a face's light counts in full where it is mixed with others'
-const float kBrickKnown = 1.0 / 16.0; // how well light is known that is a brick's
-const float kFacingMin = 1.0 / 64.0;  // squared component of a normal below which faces of an axis do not count
+const uint kSettledSamples = 8u;         // from which on a face's light counts in full where it is mixed with others'
+const float kBrickKnown = 1.0 / 16.0;    // how well light is known that is a brick's
+const float kFacingMin = 1.0 / 64.0;     // squared component of a normal below which faces of an axis do not count
 const float kPlaneShareMin = 1.0 / 16.0; // of a plane of faces, where a point is on the next one
 
 // Selects the kept light for what follows. Whether there is any.
@@ -145,8 +145,10 @@ vec4 zvo_keptRadiance(KeptLightTable_ConstPtr light, TreeTable_ConstPtr tree, Hi
     {
         vec3 offset = clamp((position - surface.middle) / surface.edge, -0.5, 0.5);
         FaceSum sum = FaceSum(vec3(0.0), 0.0, 0.0);
-        addPlane(ivec3(surface.cell), normalOfHit(hitFace(hit), direction), offset, 1, 1.0, sum);
+        uint normal = normalOfHit(hitFace(hit), direction);
+        addPlane(ivec3(surface.cell), normal, offset, 1, 1.0, sum);
         kept = lightOfSum(sum);
+        kept += lightOfBrick(surface.cell, normal, kept.w == 0.0); // as radiance/view
     }
     bool is_known = kept.w > 0.0 || surface.emission != vec3(0.0);
     return vec4(surface.emission + surface.base_color * kept.rgb, is_known ? 1.0 : 0.0);

@@ -240,7 +240,7 @@ TEST_F(ApiKeptLight, IsThatOfTheEngineOfOctreesAndDags)
             << (as_dag ? "of a DAG" : "of an octree");
         EXPECT_EQ(light.stats().faces, expected.size());
         EXPECT_EQ(light.stats().refused, 0U);
-        EXPECT_GT(light.bytes(), kGrid.faces * 36);
+        EXPECT_GT(light.bytes(), kGrid.faces * 48);
     }
 }
 
