@@ -78,8 +78,8 @@ vec3 emissionInNode(TreeTable_ConstPtr tree, Hit hit, zvo_Surface node, vec3 ori
     return zvo_isHit(voxel) ? emissionOf(tree, voxel.index) : vec3(0.0);
 }
 
-// The light that comes through a cone, of the voxels and nodes that the ray along its axis meets: nodes that are as wide
-// as the cone, whose columns along the ray let through the rest of it. direction: length 1. spread: the tangent of the
+// The light that comes through a cone, of the voxels and nodes that the ray along its axis meets: nodes that are as
+// wide as the cone, whose columns along the ray let through the rest of it. direction: length 1. spread: the tangent of the
 // angle from the axis to the rim. seed: of rays to lamps. w: the share of the cone that has met nothing.
 vec4 lightThroughCone(TreeTable_ConstPtr tree, vec3 origin, vec3 direction, float spread, float t_max, uint seed)
 {
@@ -93,7 +93,8 @@ vec4 lightThroughCone(TreeTable_ConstPtr tree, vec3 origin, vec3 direction, floa
         if (!zvo_isHit(hit))
             break;
         zvo_Surface surface = zvo_surface(tree, hit, direction);
-        vec3 leaves = surface.middle + 0.5 * surface.edge * mix(vec3(-1.0), vec3(1.0), greaterThan(direction, vec3(0.0)));
+        vec3 sides = mix(vec3(-0.5), vec3(0.5), greaterThan(direction, vec3(0.0)));
+        vec3 leaves = surface.middle + surface.edge * sides;
         vec3 exits = mix((leaves - origin) / direction, vec3(kTraceTimeMax), equal(direction, vec3(0.0)));
         float t_exit = min(exits.x, min(exits.y, exits.z));
         uint level = tree.data[0].node_levels - hitLevel(hit);
@@ -103,7 +104,8 @@ vec4 lightThroughCone(TreeTable_ConstPtr tree, vec3 origin, vec3 direction, floa
             uvec2 mask = maskOfNode(tree, surface.cell, hitLevel(hit));
             coverage = dot(direction * direction,
                            vec3(coverageAlong(mask, 0u), coverageAlong(mask, 1u), coverageAlong(mask, 2u)));
-            surface.emission = emissionInNode(tree, hit, surface, origin, hashPair(seed, i)) / max(coverage, 1.0 / 16.0);
+            vec3 emission = emissionInNode(tree, hit, surface, origin, hashPair(seed, i));
+            surface.emission = emission / max(coverage, 1.0 / 16.0);
         }
         vec3 light = surface.emission + surface.base_color * lightAgainst(surface.cell, level, direction);
         sum += through * coverage * light;
