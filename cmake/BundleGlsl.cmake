@@ -8,7 +8,8 @@
 # so is `#if defined(A) && defined(B)` if one of both is undefined.
 cmake_minimum_required(VERSION 3.25)
 set(decided_defined TRAVERSE_VARIABLES)
-set(decided_undefined __cplusplus BOUND TRAVERSE_PATHS TRAVERSE_ENTRIES FACES_BINDING STATES_BINDING)
+set(decided_undefined __cplusplus BOUND TRAVERSE_PATHS TRAVERSE_ENTRIES FACES_BINDING STATES_BINDING
+    TREE_CONSTANTS)
 set(decided ${decided_defined} ${decided_undefined})
 
 # Lists of lines must not hold what CMake's lists are made with. Names are marked by what surrounds them.

@@ -13,7 +13,8 @@
 #include "shared/tree_table.h"
 
 // These are constants in zvo's kernels (lib/traverse.glsl). Here trees differ, so setTree() sets those that are
-// variables.
+// variables. A kernel of zvo's that defines TREE_CONSTANTS, and the two macros, declares the first two.
+#ifndef TREE_CONSTANTS
 #ifdef ZVO_NODE_LEVELS
 const uint kNodeLevels = ZVO_NODE_LEVELS;
 #else
@@ -24,6 +25,7 @@ uint kNodeLevels;
 const uint kEntriesPerWord = ZVO_ENTRIES_PER_WORD;
 #else
 uint kEntriesPerWord;
+#endif
 #endif
 #ifdef ZVO_GROUP
 #define TRAVERSE_GROUP ZVO_GROUP

@@ -5,8 +5,9 @@
 #extension GL_GOOGLE_include_directive : require
 #define TRAVERSE_VARIABLES
 #define ZVO_DETAIL
-#define ZVO_NODE_LEVELS kTreeNodeLevels
-#define ZVO_ENTRIES_PER_WORD kTreeEntriesPerWord
+#define TREE_CONSTANTS
+#define ZVO_NODE_LEVELS kNodeLevels
+#define ZVO_ENTRIES_PER_WORD kEntriesPerWord
 #include "radiance/radiance.h"
 #include "lib/bound.glsl"
 #include "lib/dispatch.glsl"
@@ -14,8 +15,8 @@
 #include "lib/sobol.glsl"
 #include "trace/trace.h"
 
-layout(constant_id = 0) const uint kTreeNodeLevels = 5u;
-layout(constant_id = 1) const uint kTreeEntriesPerWord = 0u;
+layout(constant_id = 0) const uint kNodeLevels = 5u;
+layout(constant_id = 1) const uint kEntriesPerWord = 0u;
 layout(constant_id = 2) const bool kOrthographic = false;
 
 #include "host/tree.glsl"

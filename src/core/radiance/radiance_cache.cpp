@@ -515,8 +515,8 @@ void RadianceCache::traceCones(vk::FrameGraph& graph, const DeviceTree& tree, co
 {
     for (std::uint32_t cone = 0; cone < gpu::kDiffuseCones; ++cone)
     {
-        vk::Pass pass = graph.addPass(gpu::radiance::Cones{.tree_node_levels = tree.grid.nodeLevels(),
-                                                           .tree_entries_per_word = tree.entriesPerWord(),
+        vk::Pass pass = graph.addPass(gpu::radiance::Cones{.node_levels = tree.grid.nodeLevels(),
+                                                           .entries_per_word = tree.entriesPerWord(),
                                                            .orthographic = camera.orthographic});
         gpu::RadianceConesParams params{};
         params.tree = readTree(pass, tree, m_lights.table());
