@@ -23,6 +23,7 @@
 #include <cmath>
 #include <filesystem>
 #include <iterator>
+#include <numeric>
 #include <optional>
 #include <string>
 #include <vector>
@@ -85,6 +86,11 @@ double medianOf(std::vector<double> values)
     const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
     std::nth_element(values.begin(), middle, values.end());
     return values.empty() ? 0.0 : *middle;
+}
+
+double totalOf(const std::vector<double>& values)
+{
+    return std::accumulate(values.begin(), values.end(), 0.0);
 }
 
 /// Makes pictures of one scene by one light.
@@ -159,42 +165,53 @@ public:
             KeptRow row = rowOf("path", count);
             row.quality = compareTo(reference, imageOf(tracer.picture()));
             row.noise = m_noise;
-            setTimes(row, ms);
+            row.frame_ms = medianOf(ms);
+            row.total_ms = totalOf(ms);
             rows.push_back(row);
         }
         return rows;
     }
 
+    /// The light that is kept after so many frames, on the faces that are seen and through cones: both pictures are of
+    /// the same frames.
     std::vector<KeptRow> kept(const HdrImage& reference, std::span<const std::uint32_t> counts, const KeptRow& path)
     {
         RadianceTracer tracer(m_device.device());
         tracer.resize(m_width, m_height);
+        vk::BufferOf<gpu::PixelSum> cone_sums(m_device.device(), "cones", std::uint64_t{m_width} * m_height);
         std::vector<KeptRow> rows;
         std::vector<double> ms;
         const auto addFrame = [&]
         {
-            return sumMs(m_device.run([&](vk::FrameGraph& graph)
-                                      { tracer.addFrame(graph, m_scene.tree, m_scene.light, m_camera, {}); }));
+            return m_device.run([&](vk::FrameGraph& graph)
+                                { tracer.addFrame(graph, m_scene.tree, m_scene.light, m_camera, {}); });
         };
         for (const std::uint32_t count : counts)
         {
             while (ms.size() < count)
             {
-                ms.push_back(addFrame());
+                ms.push_back(sumMs(addFrame()));
             }
+            std::vector<double> cone_ms;
+            const double settled_ms = totalOf(ms);
             tracer.beginPicture();
+            m_device.run([&](vk::FrameGraph& graph) { graph.fill(cone_sums, 0); });
             for (std::uint32_t frame = 0; frame < kPictureFrames; ++frame)
             {
-                ms.push_back(addFrame());
+                const std::vector<vk::PassTime> passes = addFrame();
+                ms.push_back(sumMs(passes));
+                cone_ms.push_back(sumMs(passes) - sumOfViews(passes) + addCones(tracer, cone_sums, frame));
             }
+            const SampledPicture seen = tracer.picture();
             KeptRow row = rowOf("cached", count);
-            row.quality = compareTo(reference, imageOf(tracer.picture()));
-            row.noise = m_noise;
-            setTimes(row, ms);
-            // The error of paths falls with the square root of their number.
-            row.paths_of_error = path.count * std::pow(path.quality->relative / row.quality->relative, 2.0);
-            row.bytes_of_voxel =
-                static_cast<double>(tracer.cache().bytes()) / static_cast<double>(m_scene.tree.voxel_count);
+            compareKept(row, reference, seen, path, tracer.cache());
+            row.frame_ms = medianOf(ms);
+            row.total_ms = totalOf(ms);
+            rows.push_back(row);
+            row = rowOf("cones", count);
+            compareKept(row, reference, {cone_sums, seen.width, seen.height, seen.sample_count}, path, tracer.cache());
+            row.frame_ms = medianOf(cone_ms);
+            row.total_ms = settled_ms + totalOf(cone_ms);
             rows.push_back(row);
         }
         return rows;
@@ -214,13 +231,38 @@ private:
         return row;
     }
 
-    static void setTimes(KeptRow& row, const std::vector<double>& ms)
+    void compareKept(KeptRow& row, const HdrImage& reference, const SampledPicture& picture, const KeptRow& path,
+                     const RadianceCache& cache)
     {
-        row.frame_ms = medianOf(ms);
-        for (const double frame : ms)
+        row.quality = compareTo(reference, imageOf(picture));
+        row.noise = m_noise;
+        // The error of paths falls with the square root of their number.
+        row.paths_of_error = path.count * std::pow(path.quality->relative / row.quality->relative, 2.0);
+        row.bytes_of_voxel = static_cast<double>(cache.bytes()) / static_cast<double>(m_scene.tree.voxel_count);
+    }
+
+    // Adds what is seen through cones in the last frame of a picture, which is its frame of that number. Returns the
+    // milliseconds.
+    double addCones(RadianceTracer& tracer, vk::BufferOf<gpu::PixelSum>& sums, std::uint32_t frame)
+    {
+        const TraceCamera through = shifted(m_camera, pointOfPixel(frame));
+        return sumMs(m_device.run(
+            [&](vk::FrameGraph& graph)
+            {
+                tracer.cache().view(graph, m_scene.tree, m_scene.light, through, tracer.buffers(), sums,
+                                    {.view = KeptView::Cones});
+            }));
+    }
+
+    // Of the passes that add what is seen to a picture.
+    static double sumOfViews(const std::vector<vk::PassTime>& passes)
+    {
+        double sum = 0.0;
+        for (const vk::PassTime& pass : passes)
         {
-            row.total_ms += frame;
+            sum += pass.name == "radiance/view" || pass.name == "radiance/direct" ? pass.ms : 0.0;
         }
+        return sum;
     }
 
     double addPath(PathTracer& tracer, const PathOptions& options)
@@ -286,7 +328,8 @@ std::string keptTable(const vk::DeviceReport& device, const BenchOptions& option
                     options.reference_samples, RadianceOptions().faces);
     if (!rows.empty())
     {
-        text += fmt::format("A picture of it is {} frames behind those that are named. GPU milliseconds.\n\n{}",
+        text += fmt::format("A picture of it is {} frames behind those that are named; through cones, of the same "
+                            "frames. GPU milliseconds.\n\n{}",
                             kPictureFrames, columnNames(keptColumns()));
         for (const KeptRow& row : rows)
         {

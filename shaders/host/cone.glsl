@@ -2,10 +2,12 @@
 // Light through a cone (C. Crassin et al., Interactive Indirect Illumination Using Voxel Cone Tracing, 2011). The
 // includer includes host/tree.glsl with ZVO_DETAIL, and radiance/light_of_brick.glsl, before.
 
-const uint kConeSteps = 32u;             // nodes that a cone meets, at most
+const uint kConeSteps = 32u;             // nodes that a cone meets or leaves, at most
+const float kConeStep = 0.01;            // out of a node, in voxels
 const float kConeThrough = 1.0 / 64.0;   // of its light, at which a cone ends
+const float kNodeOfCone = 1.0;           // the widest nodes, in radii of the cone: wider ones reach far out of it
 
-// The share of the 4x4 columns along an axis in which a node has children, of its mask.
+// The share of the 4x4 columns of a node along an axis in which it has children, of its mask.
 float coverageAlong(uvec2 mask, uint axis)
 {
     uvec2 x = mask | (mask >> 1);
@@ -20,8 +22,15 @@ float coverageAlong(uvec2 mask, uint axis)
     return float(columns) / 16.0;
 }
 
-// The mask of a node, by its cell among those of its level.
-uvec2 maskOfNode(TreeTable_ConstPtr tree, uvec3 cell, uint level)
+// Along all three.
+vec3 coverageOf(uvec2 mask)
+{
+    return vec3(coverageAlong(mask, 0u), coverageAlong(mask, 1u), coverageAlong(mask, 2u));
+}
+
+// The share of the cross-sections of a node along the axes that what is in it covers, of the masks of the node and of
+// its children. cell: of the node, among those of its level.
+vec3 coverageOfNode(TreeTable_ConstPtr tree, uvec3 cell, uint level)
 {
     Node_ConstPtr pool = tree.data[0].source.pool;
     Node node = pool.data[0];
@@ -30,25 +39,49 @@ uvec2 maskOfNode(TreeTable_ConstPtr tree, uvec3 cell, uint level)
         uint index = childIndex(node, cellInBlock(cell >> (2u * (level - l))));
         node = pool.data[listedChild(pool, index, kEntriesPerWord)];
     }
-    return uvec2(node.mask_lo, node.mask_hi);
+    uvec2 mask = uvec2(node.mask_lo, node.mask_hi);
+    vec3 blocks = coverageOf(mask);
+    if (level + 1u >= kNodeLevels)
+        return blocks;
+    vec3 covered = vec3(0.0);
+    while (mask != uvec2(0u))
+    {
+        uint child = mask.x != 0u ? uint(findLSB(mask.x)) : 32u + uint(findLSB(mask.y));
+        mask = mask.x != 0u ? uvec2(mask.x & (mask.x - 1u), mask.y) : uvec2(0u, mask.y & (mask.y - 1u));
+        Node below = pool.data[listedChild(pool, childIndex(node, child), kEntriesPerWord)];
+        covered += coverageOf(uvec2(below.mask_lo, below.mask_hi)) / 16.0;
+    }
+    return min(blocks, covered); // children behind each other count twice where they do not fill their columns
 }
 
 // Light of the faces of a node, or of a voxel, that are towards where a ray comes from, by the squares of the
-// components of its direction (length 1): of white ones.
+// components of its direction (length 1): of white ones. Where there are none, that of the least brick around it.
 vec3 lightAgainst(uvec3 cell, uint level, vec3 direction)
 {
     uint known_level = min(level, kBrickLevels);
     uvec3 known_cell = cell << (2u * (level - known_level)); // far nodes are larger than bricks
     vec4 sum = vec4(0.0);
-    for (uint axis = 0u; axis < 3u; ++axis)
-    {
-        float component = axis == 0u ? direction.x : axis == 1u ? direction.y : direction.z;
-        uint normal = axis + (component > 0.0 ? 3u : 0u);
-        KeptFace face;
-        bool found = findFace(known_cell, normal, known_level, face) != kNoFace && keptWeight(face.light) != 0u;
-        sum += found ? component * component * vec4(keptRadiance(face.light), 1.0) : vec4(0.0);
-    }
+    for (uint up = known_level; up <= kBrickLevels && sum.w == 0.0; ++up)
+        for (uint axis = 0u; axis < 3u; ++axis)
+        {
+            float component = axis == 0u ? direction.x : axis == 1u ? direction.y : direction.z;
+            KeptFace face;
+            uint slot = findFace(known_cell >> (2u * (up - known_level)), axis + (component > 0.0 ? 3u : 0u), up, face);
+            bool found = slot != kNoFace && keptWeight(face.light) != 0u;
+            sum += found ? component * component * vec4(keptRadiance(face.light), 1.0) : vec4(0.0);
+        }
     return sum.w > 0.0 ? sum.rgb / sum.w : vec3(0.0);
+}
+
+// When a ray enters, and leaves, a cube: x and y.
+vec2 timesOfCube(vec3 middle, float edge, vec3 origin, vec3 direction)
+{
+    vec3 inverse = inverseDirection(direction);
+    vec3 low = (middle - 0.5 * edge - origin) * inverse;
+    vec3 high = (middle + 0.5 * edge - origin) * inverse;
+    vec3 enters = min(low, high);
+    vec3 leaves = max(low, high);
+    return vec2(max(enters.x, max(enters.y, enters.z)), min(leaves.x, min(leaves.y, leaves.z)));
 }
 
 // The emission of what a ray towards a random place in a node meets in it; its mean over rays is that of the node. The
@@ -67,50 +100,65 @@ vec3 emissionInNode(TreeTable_ConstPtr tree, Hit hit, zvo_Surface node, vec3 ori
     }
     vec3 place = vec3(samplePair(0u, seed, 0u), samplePair(0u, seed, 1u).x) - 0.5;
     vec3 towards = node.middle + node.edge * place - origin;
-    vec3 inverse = 1.0 / towards;
-    vec3 low = (node.middle - 0.5 * node.edge - origin) * inverse;
-    vec3 high = (node.middle + 0.5 * node.edge - origin) * inverse;
-    vec3 enters = min(low, high);
-    vec3 leaves = max(low, high);
-    float t_enter = max(max(enters.x, max(enters.y, enters.z)), 0.0);
-    float t_leave = min(leaves.x, min(leaves.y, leaves.z));
-    Hit voxel = zvo_trace(tree, origin, towards, t_enter, t_leave);
+    vec2 times = timesOfCube(node.middle, node.edge, origin, towards);
+    Hit voxel = zvo_trace(tree, origin, towards, max(times.x, 0.0), times.y);
     return zvo_isHit(voxel) ? emissionOf(tree, voxel.index) : vec3(0.0);
 }
 
-// The light that comes through a cone, of the voxels and nodes that the ray along its axis meets: nodes that are as
-// wide as the cone, whose columns along the ray let through the rest of it. direction: length 1. spread: the tangent of the
-// angle from the axis to the rim. seed: of rays to lamps. w: the share of the cone that has met nothing.
+// A ray that goes on at t may be in a node that it has entered before, and of which it has met smaller ones: as a whole
+// the node would count them again. x: the edge of nodes that may count, at most. y: until when. edge_max: of nodes that
+// are not too wide at t.
+vec2 nodesEnteredAt(TreeTable_ConstPtr tree, vec3 origin, vec3 direction, float t, float edge_max)
+{
+    float edge = tree.data[0].voxel_size;
+    vec3 point = origin + t * direction - tree.data[0].origin;
+    float since = t - 4.0 * kConeStep * edge;
+    for (float wider = 4.0 * edge; wider <= edge_max; wider *= 4.0)
+    {
+        vec3 middle = tree.data[0].origin + wider * (floor(point / wider) + 0.5);
+        vec2 times = timesOfCube(middle, wider, origin, direction);
+        if (times.x < since)
+            return vec2(edge, times.y);
+        edge = wider;
+    }
+    return vec2(edge, kTraceTimeMax);
+}
+
+// The light that comes through a cone, of the voxels and nodes that the ray along its axis meets: nodes that are up to
+// half as wide as the cone, which let through the share of it that they do not cover. direction: length 1. spread: the
+// tangent of the angle from the axis to the rim. seed: of rays to lamps. w: the share of the cone that has met nothing.
 vec4 lightThroughCone(TreeTable_ConstPtr tree, vec3 origin, vec3 direction, float spread, float t_max, uint seed)
 {
-    vec2 detail = vec2(2.0 * spread, tree.data[0].voxel_size);
+    float voxel = tree.data[0].voxel_size;
+    t_max = min(t_max, kTraceTimeMax);
     vec3 sum = vec3(0.0);
     float through = 1.0;
     float t = 0.0;
     for (uint i = 0u; i < kConeSteps && through > kConeThrough && t < t_max; ++i)
     {
-        Hit hit = zvo_traceDetail(tree, origin, direction, t, t_max, detail);
+        vec2 entered = nodesEnteredAt(tree, origin, direction, t, min(kNodeOfCone * spread * t, zvo_unitEdge(tree)));
+        bool is_limited = entered.y < kTraceTimeMax;
+        vec2 detail = is_limited ? vec2(0.0, entered.x) : vec2(kNodeOfCone * spread, voxel);
+        Hit hit = zvo_traceDetail(tree, origin, direction, t, min(t_max, entered.y), detail);
         if (!zvo_isHit(hit))
-            break;
+        {
+            t = entered.y + kConeStep * voxel;
+            continue;
+        }
         zvo_Surface surface = zvo_surface(tree, hit, direction);
-        vec3 sides = mix(vec3(-0.5), vec3(0.5), greaterThan(direction, vec3(0.0)));
-        vec3 leaves = surface.middle + surface.edge * sides;
-        vec3 exits = mix((leaves - origin) / direction, vec3(kTraceTimeMax), equal(direction, vec3(0.0)));
-        float t_exit = min(exits.x, min(exits.y, exits.z));
+        vec2 times = timesOfCube(surface.middle, surface.edge, origin, direction);
         uint level = tree.data[0].node_levels - hitLevel(hit);
         float coverage = 1.0;
         if (!surface.is_voxel)
         {
-            uvec2 mask = maskOfNode(tree, surface.cell, hitLevel(hit));
-            coverage = dot(direction * direction,
-                           vec3(coverageAlong(mask, 0u), coverageAlong(mask, 1u), coverageAlong(mask, 2u)));
+            coverage = dot(direction * direction, coverageOfNode(tree, surface.cell, hitLevel(hit)));
             vec3 emission = emissionInNode(tree, hit, surface, origin, hashPair(seed, i));
             surface.emission = emission / max(coverage, 1.0 / 16.0);
         }
         vec3 light = surface.emission + surface.base_color * lightAgainst(surface.cell, level, direction);
         sum += through * coverage * light;
         through *= 1.0 - coverage;
-        t = max(t_exit, hit.t) + 0.01 * tree.data[0].voxel_size;
+        t = max(times.y, hit.t) + kConeStep * voxel;
     }
     return vec4(sum, through > kConeThrough ? through : 0.0);
 }

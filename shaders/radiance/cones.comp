@@ -1,7 +1,7 @@
 #version 460
 // SPDX-License-Identifier: MIT
 // Adds what each pixel reflects of the light that comes through one of six cones above its hit, and of the sun. Cones
-// are turned about the normal by a random angle, of which the mean over frames is left.
+// are turned at random, of which the mean over frames is left.
 #extension GL_GOOGLE_include_directive : require
 #define TRAVERSE_VARIABLES
 #define ZVO_DETAIL
@@ -41,16 +41,20 @@ layout(push_constant, scalar) uniform Push
 #include "radiance/seen_hit.glsl"
 
 // Cones of 60 degrees, whose weights are the shares of the cosine: one around the normal, and five around it at 60
-// degrees.
+// degrees. Since nodes are narrower than cones, the axes are anywhere in that share of them.
 const float kConeSpread = 0.57735027; // tangent of 30 degrees
+const float kAxisShare = 0.75;
 const float kConeWeight = 0.25;
 const float kSideWeight = 0.15;
 
-vec3 coneDirection(vec3 normal, uint cone, float turn)
+// The axis of a cone. turn, u: random numbers.
+vec3 coneDirection(vec3 normal, uint cone, float turn, vec2 u)
 {
     float angle = 2.0 * kPi * (float(cone) / 5.0 + turn);
     vec3 aside = vec3(0.8660254 * vec2(cos(angle), sin(angle)), 0.5);
-    return frameAround(normal) * (cone == 0u ? vec3(0.0, 0.0, 1.0) : aside);
+    vec3 middle = frameAround(normal) * (cone == 0u ? vec3(0.0, 0.0, 1.0) : aside);
+    vec2 off = kAxisShare * kConeSpread * sqrt(u.x) * vec2(cos(2.0 * kPi * u.y), sin(2.0 * kPi * u.y));
+    return normalize(frameAround(middle) * vec3(off, 1.0));
 }
 
 // Of the sun's disc at that height: irradiance over pi.
@@ -79,7 +83,8 @@ void main()
     vec3 normal = normalAxis(normalOfHit(hitFace(hit), direction));
     vec3 point = zvo_toWorld(params.tree, origin + hit.t * direction) + surface.edge * normal;
     uint seed = hashPair(number, params.seed);
-    vec3 towards = coneDirection(normal, params.cone, samplePair(params.frame, seed, 0u).x);
+    vec2 u = samplePair(params.frame, seed, 1u + params.cone);
+    vec3 towards = coneDirection(normal, params.cone, samplePair(params.frame, seed, 0u).x, u);
     uint seed_of_cone = hashPair(seed, params.frame * kDiffuseCones + params.cone);
     vec4 found = lightThroughCone(params.tree, point, towards, kConeSpread, kTraceTimeMax, seed_of_cone);
     vec3 light = found.rgb + found.w * mapRadiance(params.environment, towards);

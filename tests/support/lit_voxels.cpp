@@ -30,23 +30,39 @@ bool emits(const LitVoxel& voxel)
     return voxel.emission != glm::vec3(0.0F);
 }
 
-// For each node, whether a voxel below it emits.
-std::vector<gpu::Attribute> nodeFlags(const DeviceTree& tree, std::span<const gpu::Node> nodes,
-                                      std::span<const LitVoxel> voxels)
+// For each node, the mean of the colours below it, and whether a voxel there emits.
+std::vector<gpu::Attribute> nodeAttributes(const DeviceTree& tree, std::span<const gpu::Node> nodes,
+                                           std::span<const LitVoxel> voxels)
 {
-    std::vector<gpu::Attribute> flags(nodes.size());
+    struct Sum
+    {
+        glm::dvec3 linear{0.0};
+        double count = 0.0;
+        bool emits = false;
+    };
+    std::vector<Sum> sums(nodes.size());
+    std::vector<gpu::Attribute> attributes(nodes.size());
     for (std::size_t number = nodes.size(); number-- > 0;)
     {
         const gpu::Node& node = nodes[number];
         const bool is_leaf = number >= tree.levels.back().first_node;
         const std::size_t count = static_cast<std::size_t>(std::popcount(node.mask_lo) + std::popcount(node.mask_hi));
         const std::size_t first = node.mask_lo != 0 ? node.base_lo : node.base_hi;
+        Sum& sum = sums[number];
         for (std::size_t i = first; i < first + count; ++i)
         {
-            flags[number].color |= is_leaf ? (emits(voxels[i]) ? gpu::kAttributeEmissive << 24 : 0) : flags[i].color;
+            const Sum below = is_leaf ? Sum{albedoOf(voxels[i]), 1.0, emits(voxels[i])} : sums[i];
+            sum = {sum.linear + below.linear, sum.count + below.count, sum.emits || below.emits};
+        }
+        attributes[number].color = sum.emits ? gpu::kAttributeEmissive << 24 : 0;
+        for (int i = 0; i < 3; ++i)
+        {
+            const double mean = sum.linear[i] / std::max(sum.count, 1.0);
+            const double code = mean <= 0.0031308 ? 12.92 * mean : 1.055 * std::pow(mean, 1.0 / 2.4) - 0.055;
+            attributes[number].color |= static_cast<gpu::uint>(std::lround(255.0 * code)) << (8 * i);
         }
     }
-    return flags;
+    return attributes;
 }
 
 } // namespace
@@ -77,7 +93,7 @@ void addBox(std::vector<LitVoxel>& voxels, const glm::uvec3& low, const glm::uve
     }
 }
 
-DeviceTree litTree(vk::HeadlessDevice& device, std::vector<LitVoxel> voxels, std::uint32_t depth, bool flags)
+DeviceTree litTree(vk::HeadlessDevice& device, std::vector<LitVoxel> voxels, std::uint32_t depth, bool of_nodes)
 {
     const auto code = [](const LitVoxel& voxel) { return oracle::mortonEncode(voxel.cell); };
     std::ranges::sort(voxels, {}, code);
@@ -108,10 +124,10 @@ DeviceTree litTree(vk::HeadlessDevice& device, std::vector<LitVoxel> voxels, std
         tree.emission_words = device.makeBuffer("emission words", std::span<const gpu::uvec2>(words));
         tree.emission = device.makeBuffer("emission", std::span<const gpu::uint>(emission));
     }
-    if (flags)
+    if (of_nodes)
     {
-        const std::vector<gpu::Attribute> of_nodes = nodeFlags(tree, device.download(tree.nodes), voxels);
-        tree.node_attributes = device.makeBuffer("node attributes", std::span<const gpu::Attribute>(of_nodes));
+        const std::vector<gpu::Attribute> attributes_of_nodes = nodeAttributes(tree, device.download(tree.nodes), voxels);
+        tree.node_attributes = device.makeBuffer("node attributes", std::span<const gpu::Attribute>(attributes_of_nodes));
     }
     return tree;
 }

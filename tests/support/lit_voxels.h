@@ -23,9 +23,9 @@ struct LitVoxel
 /// Linear albedo of a voxel.
 glm::dvec3 albedoOf(const LitVoxel& voxel);
 
-/// The tree of voxels in any order. The grid has its corner at 0 and voxels of size 1. flags: nodes have attributes,
-/// which say whether a voxel below them emits.
-DeviceTree litTree(vk::HeadlessDevice& device, std::vector<LitVoxel> voxels, std::uint32_t depth, bool flags = true);
+/// The tree of voxels in any order. The grid has its corner at 0 and voxels of size 1. of_nodes: nodes have attributes,
+/// the mean colour of the voxels below them and whether one of these emits.
+DeviceTree litTree(vk::HeadlessDevice& device, std::vector<LitVoxel> voxels, std::uint32_t depth, bool of_nodes = true);
 
 /// The voxels of a box for whose cells make() gives one: from low up to, but without, high.
 void addBox(std::vector<LitVoxel>& voxels, const glm::uvec3& low, const glm::uvec3& high, const LitVoxel& voxel);

@@ -10,6 +10,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
+#include <cstdio>
 #include <cmath>
 #include <vector>
 
@@ -187,6 +189,46 @@ TEST(RadiancePictures, AreThoseOfPathTracing)
     EXPECT_LT(relativeError(picture, truth), 0.02);
 }
 
+// Cones are further from path tracing than the faces that keep the light which they show, but near.
+TEST(RadiancePictures, ByConesAreNearThoseOfPathTracing)
+{
+    Hall hall;
+    const PathPicture truth = pictureOf(hall.tree, hall.dark, hall.view, 40, 512, {.bounces = 10});
+    std::array<double, 2> errors{};
+    for (const KeptView view : {KeptView::Faces, KeptView::Cones})
+    {
+        RadianceTracer tracer(device().device());
+        const PathPicture picture =
+            settledPicture(tracer, hall.tree, hall.dark, hall.view, 40, 128, 64, {.view = view});
+        errors[static_cast<std::size_t>(view)] = relativeError(picture, truth);
+        std::printf("view %d: error %.3f luminance %.4f %.4f\n", int(view), relativeError(picture, truth), picture.luminance, truth.luminance);
+    }
+    EXPECT_LT(errors[1], 0.3);
+    EXPECT_LT(errors[0], 0.3 * errors[1]);
+}
+
+TEST(Furn, Cones)
+{
+    for (unsigned edge : {8, 32, 64}) for (unsigned thick : {1,4})
+    {
+        LitVoxel wall = grey();
+        wall.emission = glm::vec3(0.5F);
+        std::vector<LitVoxel> v;
+        test::addBox(v, glm::uvec3(0), glm::uvec3(edge), wall);
+        std::erase_if(v, [&](const LitVoxel& x) { return glm::all(glm::greaterThanEqual(x.cell, glm::uvec3(thick))) && glm::all(glm::lessThan(x.cell, glm::uvec3(edge - thick))); });
+        if (2*thick>=edge) continue;
+        const DeviceTree tree = test::litTree(device(), v, edge==8?3:edge==32?5:6);
+        DeviceEnvironment dark = constantSky(glm::vec3(0.0F));
+        const double c = edge / 2.0;
+        const ViewCamera inside = ViewCamera::lookAt({c+.2, c+.1, c+.3}, {1.0, 2.0, 3.0}, 1.0);
+        for (const KeptView view : {KeptView::Faces, KeptView::Cones})
+        {
+            RadianceTracer tracer(device().device());
+            const PathPicture picture = settledPicture(tracer, tree, dark, inside, 40, 100, 16, {.view = view});
+            std::printf("furn %u %u view %d %.4f of %.4f\n", edge, thick, int(view), picture.luminance, 0.5 / (1.0 - test::albedoOf(wall).r));
+        }
+    }
+}
 // The light is a mean over frames: it does not depend on the order of threads.
 TEST(RadianceBytes, AreTheSameInEveryRun)
 {
