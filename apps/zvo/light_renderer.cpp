@@ -92,15 +92,20 @@ LightRenderer::LightRenderer(vk::HeadlessDevice& device, const RenderOptions& op
     }
 }
 
+RadianceOptions LightRenderer::keptOptions() const
+{
+    RadianceOptions kept = m_options.kept.radiance;
+    kept.seed = m_options.paths.path.seed;
+    kept.view = m_options.integrator == Integrator::Cones ? KeptView::Cones : KeptView::Faces;
+    return kept;
+}
+
 // Records a sample of the picture.
 void LightRenderer::addSample(vk::FrameGraph& graph, const DeviceTree& tree)
 {
     if (m_kept)
     {
-        RadianceOptions kept = m_options.kept.radiance;
-        kept.seed = m_options.paths.path.seed;
-        kept.view = m_options.integrator == Integrator::Cones ? KeptView::Cones : KeptView::Faces;
-        m_kept->addFrame(graph, tree, m_environment, *m_camera, kept);
+        m_kept->addFrame(graph, tree, m_environment, *m_camera, keptOptions());
         return;
     }
     PathOptions path = m_options.paths.path;
@@ -115,8 +120,8 @@ void LightRenderer::settle(const DeviceTree& tree, Progress& progress, std::vect
     const std::uint32_t count = m_options.kept.settle;
     for (std::uint32_t frame = 0; frame < count && !interrupted(); ++frame)
     {
-        const std::vector<vk::PassTime> times = m_device.run([&](vk::FrameGraph& graph) { addSample(graph, tree); });
-        m_kept->beginPicture(); // as a window does in each frame
+        const std::vector<vk::PassTime> times = m_device.run(
+            [&](vk::FrameGraph& graph) { m_kept->settle(graph, tree, m_environment, *m_camera, keptOptions()); });
         passes.insert(passes.end(), times.begin(), times.end());
         progress.within(static_cast<double>(frame + 1) / (count + m_options.sampleCount()),
                         fmt::format("light settles, {}/{} frames", frame + 1, count));

@@ -25,7 +25,8 @@
 //
 //   radiance/want      faces that the camera sees: into the table, and into the frame's list
 //   radiance/tally     counts the faces of the list by their rank; its last threads find the rank that the budget ends
-//   radiance/begin     a path from each face of a lower rank; the brick of level 1 around it: into table and list
+//   radiance/take      lists the faces of a lower rank
+//   radiance/begin     a path from each of them; the brick of level 1 around it: into table and list
 //   radiance/surround  the bricks of a level around those of the one before that are listed: likewise
 //     trace/rays, radiance/gather            what the paths hit, and the light that is kept there
 //     path/miss, path/emitter                light that they have met
@@ -164,11 +165,22 @@ struct RadianceTallyParams // push constants of radiance/tally: a thread a liste
 };
 GPU_KERNEL(radiance, tally, Tally, RadianceTallyParams)
 
-struct RadianceBeginParams // push constants of radiance/begin: a thread a listed face
+struct RadianceTakeParams // push constants of radiance/take: a thread a listed face
+{
+    GPU_CONST_PTR(KeptFace) faces;
+    GPU_PTR(FaceState) states;
+    GPU_CONST_PTR(uint) wanted;
+    GPU_CONST_PTR(RadianceCounters) counters;
+    GPU_PTR(DispatchArgs) lists;
+    GPU_PTR(uint) numbers; // as in RadianceBeginParams
+    uint frame;
+};
+GPU_KERNEL(radiance, take, Take, RadianceTakeParams)
+
+struct RadianceBeginParams // push constants of radiance/begin: a thread a path
 {
     GPU_PTR(KeptFace) faces;
     GPU_PTR(FaceState) states;
-    GPU_CONST_PTR(uint) wanted;
     GPU_PTR(RadianceCounters) counters;
     GPU_CONST_PTR(vec2) gives;            // [kNormals] as Environment::gives
     GPU_CONST_PTR(LightNode) light_nodes; // kEmission only
@@ -180,7 +192,6 @@ struct RadianceBeginParams // push constants of radiance/begin: a thread a liste
     GPU_PTR(uint) bricks;   // [kBrickLevels][batch] slots
     uint batch;
     uint run_count;
-    uint frame;
     uint sample_index;
     uint seed;
 };
@@ -292,6 +303,7 @@ GPU_KERNEL_BEGIN(radiance, view, View, RadianceViewParams)
     GPU_CONSTANT(AttributeFormat, format, kFormat8)
     GPU_CONSTANT(bool, emission, false)
     GPU_CONSTANT(bool, reflects, true)
+    GPU_CONSTANT(bool, adds, true)
 GPU_KERNEL_END
 
 struct RadianceConesParams // push constants of radiance/cones: a thread a pixel, in the order of path/path.h

@@ -210,8 +210,7 @@ struct ZVO_LOCAL Tracer::Impl
                       environment.enter(impl.frame);
                       environment.light.prepare(impl.graph);
                       tracer->tracePrimary(impl.graph, tree, camera, {});
-                      impl.graph.fill(kept->sums, 0);
-                      light.cache->view(impl.graph, tree, environment.light, camera, buffers, kept->sums);
+                      light.cache->view(impl.graph, tree, environment.light, camera, buffers, kept->sums, true);
                       const SampledPicture shown = {kept->sums, buffers.width, buffers.height, 1};
                       kept->developer.develop(impl.graph, shown, buffers.texels, exposure, tracer->image());
                       copyToImage(impl.graph, buffers, color);

@@ -261,6 +261,7 @@ void RadianceCache::update(vk::FrameGraph& graph, const DeviceTree& tree, Device
     clear(graph, work.frame);
     want(graph, work);
     tally(graph, work);
+    take(graph, work);
     begin(graph, work);
     for (std::uint32_t level = 2; level <= gpu::kBrickLevels; ++level)
     {
@@ -323,6 +324,22 @@ void RadianceCache::tally(vk::FrameGraph& graph, const Work& work)
                           divideUp(m_buffers->wanted[0].count(), gpu::kPathGroup));
 }
 
+void RadianceCache::take(vk::FrameGraph& graph, const Work& work)
+{
+    PathBatch& batch = m_buffers->batch;
+    vk::Pass pass = graph.addPass(gpu::radiance::Take{});
+    gpu::RadianceTakeParams params{};
+    params.faces = pass.read(m_table->faces);
+    params.states = pass.readWrite(m_table->states);
+    params.wanted = pass.read(m_buffers->wanted.at(work.frame % 2));
+    params.counters = pass.read(m_table->counters);
+    params.lists = pass.readWrite(batch.lists);
+    params.numbers = pass.readWrite(batch.numbers);
+    params.frame = work.frame;
+    pass.dispatchIndirect(batch.lists, listArgs(wantedList(work.frame), gpu::kListPaths), params,
+                          divideUp(m_buffers->wanted[0].count(), gpu::kPathGroup));
+}
+
 void RadianceCache::begin(vk::FrameGraph& graph, const Work& work)
 {
     PathBatch& batch = m_buffers->batch;
@@ -331,7 +348,6 @@ void RadianceCache::begin(vk::FrameGraph& graph, const Work& work)
     gpu::RadianceBeginParams params{};
     params.faces = pass.readWrite(m_table->faces);
     params.states = pass.readWrite(m_table->states);
-    params.wanted = pass.read(m_buffers->wanted.at(work.frame % 2));
     params.counters = pass.readWrite(m_table->counters);
     params.gives = pass.read(work.environment.gives());
     if (emits)
@@ -346,11 +362,10 @@ void RadianceCache::begin(vk::FrameGraph& graph, const Work& work)
     params.bricks = pass.readWrite(m_buffers->bricks);
     params.batch = static_cast<std::uint32_t>(batch.capacity());
     params.run_count = m_table->run_count;
-    params.frame = work.frame;
     params.sample_index = work.frame;
     params.seed = work.options.seed;
-    pass.dispatchIndirect(batch.lists, listArgs(wantedList(work.frame), gpu::kListPaths), params,
-                          divideUp(m_buffers->wanted[0].count(), gpu::kPathGroup));
+    pass.dispatchIndirect(batch.lists, listArgs(0, gpu::kListPaths), params,
+                          divideUp(m_buffers->faces, gpu::kPathGroup));
 }
 
 void RadianceCache::surround(vk::FrameGraph& graph, std::uint32_t level)
@@ -443,7 +458,7 @@ void RadianceCache::fold(vk::FrameGraph& graph, const Work& work, std::uint32_t 
 
 void RadianceCache::view(vk::FrameGraph& graph, const DeviceTree& tree, const DeviceEnvironment& environment,
                          const TraceCamera& camera, const TraceBuffers& seen, vk::BufferOf<gpu::PixelSum>& sums,
-                         const RadianceOptions& options)
+                         bool begins, const RadianceOptions& options)
 {
     const bool emits = hasEmission(tree);
     Frame& buffers = *m_buffers;
@@ -462,7 +477,8 @@ void RadianceCache::view(vk::FrameGraph& graph, const DeviceTree& tree, const De
                                                           .orthographic = camera.orthographic,
                                                           .format = tree.attributeFormat(),
                                                           .emission = emits,
-                                                          .reflects = options.view == KeptView::Faces});
+                                                          .reflects = options.view == KeptView::Faces,
+                                                          .adds = !begins});
         gpu::RadianceViewParams params{};
         params.faces = pass.read(m_table->faces);
         params.hits = pass.read(seen.hits);

@@ -29,7 +29,7 @@ enum class KeptView : std::uint8_t
 /// Options of the light that is kept on voxels.
 struct RadianceOptions
 {
-    std::uint32_t faces = 1U << 15;             // the most that a frame takes: each takes a ray and a shadow ray
+    std::uint32_t faces = 1U << 14;             // the most that a frame takes: each takes a ray and a shadow ray
     std::uint32_t window = gpu::kKeptWeightMax; // the most samples that a mean counts
     std::uint32_t seed = 0;
     KeptView view = KeptView::Faces;
@@ -68,11 +68,12 @@ public:
                 const TraceCamera& camera, const TraceBuffers& seen, const RadianceOptions& options);
 
     /// Records the passes that add what the camera sees, of the light that is kept and directly, to the radiance of
-    /// sums, [pixels] in the order of shaders/path/path.h. seen: as in update(), of the last one or of another picture
-    /// of the same tree. Throws Error{Memory}, if it is larger. Cost: pixels; for KeptView::Cones, six cones and a ray
-    /// to the sun for each. They follow their rays in one dispatch each, however long.
+    /// sums, [pixels] in the order of shaders/path/path.h; begins: the sums count as 0 before. seen: as in update(), of
+    /// the last one or of another picture of the same tree. Throws Error{Memory}, if it is larger. Cost: pixels; for
+    /// KeptView::Cones, six cones and a ray to the sun for each. They follow their rays in one dispatch each, however
+    /// long.
     void view(vk::FrameGraph& graph, const DeviceTree& tree, const DeviceEnvironment& environment,
-              const TraceCamera& camera, const TraceBuffers& seen, vk::BufferOf<gpu::PixelSum>& sums,
+              const TraceCamera& camera, const TraceBuffers& seen, vk::BufferOf<gpu::PixelSum>& sums, bool begins,
               const RadianceOptions& options = {});
 
     /// Has means count few samples for some frames: because voxels have changed in another way than by what moves.
@@ -134,6 +135,7 @@ private:
     void clear(vk::FrameGraph& graph, std::uint32_t frame);
     void want(vk::FrameGraph& graph, const Work& work);
     void tally(vk::FrameGraph& graph, const Work& work);
+    void take(vk::FrameGraph& graph, const Work& work);
     void begin(vk::FrameGraph& graph, const Work& work);
     void gather(vk::FrameGraph& graph, const Work& work);
     void apply(vk::FrameGraph& graph, const Work& work);

@@ -39,21 +39,31 @@ void RadianceTracer::forget()
     beginPicture();
 }
 
+// Records the camera's rays, and what they and the faces that they hit bring.
+void RadianceTracer::update(vk::FrameGraph& graph, const DeviceTree& tree, DeviceEnvironment& environment,
+                            const TraceCamera& camera, const RadianceOptions& options)
+{
+    TraceOptions trace;
+    trace.stack = options.stack;
+    m_tracer.tracePrimary(graph, tree, camera, trace);
+    m_cache.update(graph, tree, environment, camera, m_tracer.buffers(), options);
+}
+
 void RadianceTracer::addFrame(vk::FrameGraph& graph, const DeviceTree& tree, DeviceEnvironment& environment,
                               const TraceCamera& camera, const RadianceOptions& options)
 {
     const std::uint32_t frame = std::exchange(m_frame_count, 0); // should anything below throw
-    if (frame == 0)
-    {
-        graph.fill(*m_sums, 0);
-    }
     const TraceCamera through = shifted(camera, pointOfPixel(frame));
-    TraceOptions trace;
-    trace.stack = options.stack;
-    m_tracer.tracePrimary(graph, tree, through, trace);
-    m_cache.update(graph, tree, environment, through, m_tracer.buffers(), options);
-    m_cache.view(graph, tree, environment, through, m_tracer.buffers(), *m_sums, options);
+    update(graph, tree, environment, through, options);
+    m_cache.view(graph, tree, environment, through, m_tracer.buffers(), *m_sums, frame == 0, options);
     m_frame_count = frame + 1;
+}
+
+void RadianceTracer::settle(vk::FrameGraph& graph, const DeviceTree& tree, DeviceEnvironment& environment,
+                            const TraceCamera& camera, const RadianceOptions& options)
+{
+    beginPicture();
+    update(graph, tree, environment, shifted(camera, pointOfPixel(m_cache.frameCount())), options);
 }
 
 } // namespace zvo

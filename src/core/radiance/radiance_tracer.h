@@ -43,6 +43,11 @@ public:
     void addFrame(vk::FrameGraph& graph, const DeviceTree& tree, DeviceEnvironment& environment,
                   const TraceCamera& camera, const RadianceOptions& options);
 
+    /// Records the passes of a frame that brings the light up to date and shows none, for as long as there is no
+    /// picture. Throws Error{Memory}. Cost: as addFrame(), without what it takes to show light.
+    void settle(vk::FrameGraph& graph, const DeviceTree& tree, DeviceEnvironment& environment,
+                const TraceCamera& camera, const RadianceOptions& options);
+
     /// Forgets picture and light: because the last frame was lost, or kernels may have changed.
     void forget();
 
@@ -60,6 +65,9 @@ public:
     [[nodiscard]] std::uint64_t bytes() const { return m_tracer.buffers().bytes() + m_cache.bytes() + m_sums->bytes(); }
 
 private:
+    void update(vk::FrameGraph& graph, const DeviceTree& tree, DeviceEnvironment& environment,
+                const TraceCamera& camera, const RadianceOptions& options);
+
     vk::Device& m_device;
     vk::DeletionQueue* m_deletion_queue;
     TreeTracer m_tracer;
