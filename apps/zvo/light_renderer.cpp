@@ -96,7 +96,6 @@ RadianceOptions LightRenderer::keptOptions() const
 {
     RadianceOptions kept = m_options.kept.radiance;
     kept.seed = m_options.paths.path.seed;
-    kept.view = m_options.integrator == Integrator::Cones ? KeptView::Cones : KeptView::Faces;
     return kept;
 }
 
@@ -105,7 +104,9 @@ void LightRenderer::addSample(vk::FrameGraph& graph, const DeviceTree& tree)
 {
     if (m_kept)
     {
-        m_kept->addFrame(graph, tree, m_environment, *m_camera, keptOptions());
+        const bool is_cones = m_options.integrator == Integrator::Cones;
+        m_kept->addFrame(graph, tree, m_environment, *m_camera, keptOptions(),
+                         is_cones ? KeptView::Cones : KeptView::Faces);
         return;
     }
     PathOptions path = m_options.paths.path;

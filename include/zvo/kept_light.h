@@ -23,7 +23,7 @@ struct KeptLightInfo
     std::uint32_t width = 160;
     std::uint32_t height = 90;
 
-    std::uint64_t faces = 0; // that there is room for, at most 2^31; 0: 2.5 for each voxel of the first tree
+    std::uint64_t faces = 0; // that there is room for, at most 2^29; 0: 2.5 for each voxel of the first tree
 };
 
 /// Options of a frame.

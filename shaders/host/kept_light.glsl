@@ -214,7 +214,7 @@ vec4 zvo_gatherIrradiance(KeptLightTable_ConstPtr light, TreeTable_ConstPtr tree
 }
 
 #ifdef ZVO_DETAIL
-#include "host/cone.glsl"
+#include "radiance/cone.glsl"
 
 // The light that comes to a point through a cone, and from outside of the grid through the share of it that has met
 // nothing within a reach in world units: the mean over the cone, of nodes as wide as it, which keep light as bricks. It

@@ -57,7 +57,7 @@ const uint kRadianceGroup = 64u; // threads of a workgroup
 ///     recent  red 8 | green 8 | blue 8 | exponent 8 (radiance/kept_light.glsl): a mean of the last samples
 ///             of a brick: its index in BrickSums, while it is listed
 ///     own     as KeptFace::light, of the face's samples alone
-///             of a brick: FaceSpread, as two halves, and the number of samples that it is of
+///             of a brick: BrickSpread, and the number of samples that it is of (radiance/brick_spread.glsl)
 struct FaceState
 {
     uint mark;
@@ -71,7 +71,7 @@ struct BrickSum
 {
     uvec3 light; // in steps that depend on the light that the brick keeps (radiance/brick_sum.glsl)
     uint counts; // of samples 8 | of those where what moves matters, or has touched rays, 8 | of what follows 8
-    int apart;   // FaceSpread (radiance/share_of_brick.glsl), in steps of 2^-kSpreadShift
+    int total;   // BrickSpread (radiance/share_of_brick.glsl), in steps of 2^-kSpreadShift
     int between;
 };
 GPU_BUFFER(BrickSum, 4);
@@ -80,10 +80,10 @@ const uint kSpreadShift = 14u;
 const uint kDiffuseCones = 6u; // through which radiance/cones gathers light
 const uint kBrickFaces = 4u;   // what means of bricks count in samples, over what those of faces do
 
-// How many samples of a face the light between bricks weighs as much as, at most, and how many times so many a face has
-// when it counts alone.
-const float kBrickWorth = 128.0;
-const float kBrickGone = 16.0;
+// How many samples of a face the light of its brick counts as, at most, and how many times so many a face has that
+// shows its own light alone.
+const float kBrickSamplesMax = 128.0;
+const float kBrickShareEnds = 16.0;
 
 const uint kKeptWeightMax = 1023u;
 const uint kRecentSamples = 16u; // that FaceState::recent counts
@@ -99,7 +99,8 @@ const uint kMarkFrames = (1u << 15) - 1u; // of a mark
 const uint kMarkMovedShift = 15u;
 const uint kMarkMovedFrames = (1u << 14) - 1u;
 
-// In PathBatch::numbers, of kListPaths: the path's ray has hit what moves; its ray to a light has.
+// In PathBatch::numbers, of kListPaths, beside a slot: the path's ray has hit what moves; its ray to a light has.
+const uint kFaceSlotsMax = 1u << 30;
 const uint kPathTouched = 1u << 30;
 const uint kPathMoved = 1u << 31;
 

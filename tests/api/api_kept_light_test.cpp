@@ -465,7 +465,7 @@ TEST_F(ApiKeptLight, WhatIsNotValidIsRefused)
     { return [&, info] { const KeptLight light(m_host.context, info); }; };
     expectUsage(make({.width = 0}), "not 0");
     expectUsage(make({.height = 16385}), "not 16385");
-    expectUsage(make({.faces = (std::uint64_t{1} << 31) + 1}), "KeptLightInfo::faces is 2147483649");
+    expectUsage(make({.faces = (std::uint64_t{1} << 29) + 1}), "KeptLightInfo::faces is 536870913");
     const Tree tree = octree(4);
     Environment environment = sky();
     KeptLight light(m_host.context, kGrid);

@@ -60,6 +60,17 @@ PathPicture settledPicture(RadianceTracer& tracer, const DeviceTree& tree, Devic
     return pictureOf(tracer);
 }
 
+// The faces, and the bricks of each level.
+std::vector<std::map<FaceName, FaceLight>> levelsOf(RadianceCache& cache)
+{
+    std::vector<std::map<FaceName, FaceLight>> levels;
+    for (std::uint32_t level = 0; level <= gpu::kBrickLevels; ++level)
+    {
+        levels.push_back(facesOf(cache, level));
+    }
+    return levels;
+}
+
 // A convex body of albedo 1 in a constant sky looks like the sky.
 TEST(RadianceFurnace, AWhiteCubeCannotBeSeen)
 {
@@ -187,11 +198,42 @@ TEST(RadiancePictures, AreThoseOfPathTracing)
     EXPECT_LT(relativeError(picture, truth), 0.02);
 }
 
+// A floor under a black plate, which hides half of the sky: samples of a face are bright or dark. After few frames,
+// when faces have a few of them, the light of bricks keeps the noise down.
+TEST(RadiancePictures, AreSmoothAfterFewFrames)
+{
+    std::vector<LitVoxel> voxels;
+    test::addBox(voxels, {0, 0, 0}, {32, 1, 32}, white());
+    test::addBox(voxels, {8, 14, 8}, {24, 15, 24}, {{}, glm::uvec3(0), glm::vec3(0.0F)});
+    const DeviceTree tree = test::litTree(device(), voxels, 5);
+    DeviceEnvironment sky = constantSky(glm::vec3(1.0F));
+    const ViewCamera view = ViewCamera::lookAt({16.0, 9.0, 50.0}, {16.0, 1.0, 14.0}, 0.6);
+    const PathPicture truth = pictureOf(tree, sky, view, 40, 512, {.bounces = 10});
+    RadianceTracer tracer(device().device());
+    const PathPicture picture = settledPicture(tracer, tree, sky, view, 40, 5, 1, {.faces = 600});
+    EXPECT_LT(relativeError(picture, truth), 0.04);
+}
+
+// What the camera sees for the first time has the light of the bricks around it, though a frame samples one face only.
+TEST(RadiancePictures, ShowNewFacesLit)
+{
+    Hall hall;
+    RadianceTracer tracer(device().device());
+    tracer.resize(40, 40);
+    runFrames(tracer, hall.tree, hall.dark, hall.view, 64, {.faces = 400});
+    const ViewCamera near_wall = ViewCamera::lookAt({20.0, 10.0, 20.0}, {31.0, 8.0, 12.0}, 0.9);
+    const PathPicture truth = pictureOf(hall.tree, hall.dark, near_wall, 40, 256, {.bounces = 10});
+    tracer.beginPicture();
+    runFrames(tracer, hall.tree, hall.dark, near_wall, 1, {.faces = 1});
+    const PathPicture picture = pictureOf(tracer);
+    EXPECT_LT(relativeError(picture, truth), 0.25);
+}
+
 // The light is a mean over frames: it does not depend on the order of threads.
 TEST(RadianceBytes, AreTheSameInEveryRun)
 {
     Hall hall;
-    std::vector<std::map<FaceName, FaceLight>> runs;
+    std::vector<std::vector<std::map<FaceName, FaceLight>>> runs; // by level
     for (std::uint32_t run = 0; run < 2; ++run)
     {
         RadianceTracer tracer(device().device());
@@ -199,13 +241,16 @@ TEST(RadianceBytes, AreTheSameInEveryRun)
         // Tables of other sizes have their faces elsewhere.
         tracer.cache().reserveFaces(run == 0 ? 20000 : 45678);
         runFrames(tracer, hall.tree, hall.dark, hall.view, 12, {.faces = 500});
-        runs.push_back(facesOf(tracer.cache()));
+        runs.push_back(levelsOf(tracer.cache()));
     }
-    ASSERT_EQ(runs[0].size(), runs[1].size());
-    ASSERT_GT(runs[0].size(), 500U);
-    for (const auto& [name, face] : runs[0])
+    ASSERT_GT(runs[0][0].size(), 500U);
+    for (std::uint32_t level = 0; level <= gpu::kBrickLevels; ++level)
     {
-        EXPECT_EQ(runs[1].at(name).words, face.words);
+        ASSERT_EQ(runs[0][level].size(), runs[1][level].size());
+        for (const auto& [name, face] : runs[0][level])
+        {
+            EXPECT_EQ(runs[1][level].at(name).words, face.words) << "level " << level;
+        }
     }
 }
 
@@ -270,7 +315,7 @@ TEST(RadianceBricks, ShareNoLightThroughWalls)
     DeviceEnvironment dark = constantSky(glm::vec3(0.0F));
     RadianceTracer tracer(device().device());
     tracer.resize(64, 64);
-    runFrames(tracer, tree, dark, ViewCamera::lookAt({9.0, 40.0, 9.0}, {8.0, 0.0, 8.0}, 0.5), 160, {});
+    runFrames(tracer, tree, dark, ViewCamera::lookAt({9.0, 40.0, 9.0}, {8.0, 0.0, 8.0}, 0.5), 64, {});
     std::uint32_t dark_faces = 0;
     std::uint32_t lit_faces = 0;
     for (const auto& [name, face] : facesOf(tracer.cache()))
@@ -349,16 +394,21 @@ TEST(RadianceTable, KeepsItsLightInPicturesOfOtherSizes)
     tracer.resize(64, 64);
     runFrames(tracer, hall.tree, hall.dark, hall.view, 40, {});
     const auto before = facesOf(tracer.cache());
+    const auto levels_before = levelsOf(tracer.cache());
     tracer.resize(40, 30);
     runFrames(tracer, hall.tree, hall.dark, hall.view, 1, {.faces = 1});
-    const auto after = facesOf(tracer.cache());
-    ASSERT_GE(after.size(), before.size());
-    std::size_t others = 0;
-    for (const auto& [name, face] : before)
+    const auto levels_after = levelsOf(tracer.cache());
+    for (std::uint32_t level = 0; level <= gpu::kBrickLevels; ++level)
     {
-        others += after.at(name).words == face.words ? 0 : 1;
+        ASSERT_GE(levels_after[level].size(), levels_before[level].size());
+        ASSERT_FALSE(levels_before[level].empty());
+        std::size_t others = 0;
+        for (const auto& [name, face] : levels_before[level])
+        {
+            others += levels_after[level].at(name).words == face.words ? 0 : 1;
+        }
+        EXPECT_LE(others, 1U) << "level " << level;
     }
-    EXPECT_LE(others, 1U);
     // All are listed again.
     runFrames(tracer, hall.tree, hall.dark, hall.view, 8, {});
     std::size_t sampled = 0;
