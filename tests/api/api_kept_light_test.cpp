@@ -115,8 +115,7 @@ public:
             [&](vk::FrameGraph& graph)
             {
                 tracer.tracePrimary(graph, tree, camera, {});
-                graph.fill(sums, 0);
-                m_cache.view(graph, tree, m_sky, camera, tracer.buffers(), sums);
+                m_cache.view(graph, tree, m_sky, camera, tracer.buffers(), sums, true);
                 developer.develop(graph, {sums, width, height, 1}, TexelFormat::Rgba8, exposure, image);
             });
         return test::device().download(image);
