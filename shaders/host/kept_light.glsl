@@ -131,8 +131,8 @@ vec3 zvo_outside(KeptLightTable_ConstPtr light, vec3 direction)
 }
 
 // The light that comes from a hit, against its ray: what the voxel emits and reflects of the kept light, as zvo's
-// pictures of it show; for a miss what is outside, without the sun. w: 1, or 0 where it is not known what it reflects or
-// what is outside, and rgb is 0. origin, direction: of the ray in world space.
+// pictures of it show; for a miss what is outside, without the sun. w: 1, or 0 where it is not known what it reflects
+// or what is outside, and rgb is 0. origin, direction: of the ray in world space.
 vec4 zvo_keptRadiance(KeptLightTable_ConstPtr light, TreeTable_ConstPtr tree, Hit hit, vec3 origin, vec3 direction)
 {
     if (!zvo_isHit(hit))

@@ -79,7 +79,7 @@ vec3 emissionInNode(TreeTable_ConstPtr tree, Hit hit, zvo_Surface node, vec3 ori
 }
 
 // The light that comes through a cone, of the voxels and nodes that the ray along its axis meets: nodes that are as
-// wide as the cone, whose columns along the ray let through the rest of it. direction: length 1. spread: the tangent of the
+// wide as the cone, whose columns along the ray let through the rest of it. direction: length 1. spread: tangent of the
 // angle from the axis to the rim. seed: of rays to lamps. w: the share of the cone that has met nothing.
 vec4 lightThroughCone(TreeTable_ConstPtr tree, vec3 origin, vec3 direction, float spread, float t_max, uint seed)
 {

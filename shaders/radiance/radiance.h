@@ -324,8 +324,8 @@ struct RadianceConesParams // push constants of radiance/cones: a thread a pixel
     uint seed;
 };
 GPU_KERNEL_BEGIN(radiance, cones, Cones, RadianceConesParams)
-    GPU_CONSTANT(uint, tree_node_levels, 5u)
-    GPU_CONSTANT(uint, tree_entries_per_word, 0u)
+    GPU_CONSTANT(uint, node_levels, 5u)
+    GPU_CONSTANT(uint, entries_per_word, 0u)
     GPU_CONSTANT(bool, orthographic, false)
 GPU_KERNEL_END
 

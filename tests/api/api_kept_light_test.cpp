@@ -3,6 +3,7 @@
 #include "api/context_impl.h"
 #include "api_scene.h"
 #include "core/radiance/radiance_tracer.h"
+#include "core/radiance/radiance_view.h"
 #include "core/trace/tree_tracer.h"
 #include "expect_usage.h"
 #include "host_kernel.h"
@@ -110,14 +111,14 @@ public:
         Developer developer(test::device().device());
         tracer.resize(width, height);
         const std::uint64_t pixels = std::uint64_t{width} * height;
-        vk::BufferOf<gpu::PixelSum> sums(test::device().device(), "sums", pixels);
+        RadianceView shown(test::device().device(), width, height);
         vk::BufferOf<gpu::uint> image(test::device().device(), "picture", pixels);
         test::device().run(
             [&](vk::FrameGraph& graph)
             {
                 tracer.tracePrimary(graph, tree, camera, {});
-                m_cache.view(graph, tree, m_sky, camera, tracer.buffers(), sums, true);
-                developer.develop(graph, {sums, width, height, 1}, TexelFormat::Rgba8, exposure, image);
+                shown.add(graph, m_cache, tree, m_sky, camera, tracer.buffers());
+                developer.develop(graph, shown.picture(), TexelFormat::Rgba8, exposure, image);
             });
         return test::device().download(image);
     }
@@ -434,8 +435,12 @@ TEST_F(ApiKeptLight, FollowsADynamicTreeThatIsMadeAnew)
         ModelInfo info = of.info();
         info.emission_scale = scale;
         Tree fixed = m_host.build(m_host.upload(info), {.grid = test::apiGrid(3)});
-        m_host.frame([&](Recorder& recorder, VkCommandBuffer)
-                     { tree.emplace(recorder, std::move(fixed), DynamicTreeInfo{.emission_scale = scale}); printf("at %p\n", (void*)tree->impl()); });
+        m_host.frame(
+            [&](Recorder& recorder, VkCommandBuffer)
+            {
+                tree.emplace(recorder, std::move(fixed), DynamicTreeInfo{.emission_scale = scale});
+                printf("at %p\n", (void*)tree->impl());
+            });
     };
     Environment environment = sky();
     const auto light_after = [&](KeptLight& light, std::uint32_t count)

@@ -88,8 +88,8 @@ void RadianceView::addKept(vk::FrameGraph& graph, const Work& work)
 // Records the pass that adds what pixels reflect of the light through a cone.
 void RadianceView::addCone(vk::FrameGraph& graph, const Work& work, std::uint32_t cone, std::uint32_t seed)
 {
-    vk::Pass pass = graph.addPass(gpu::radiance::Cones{.tree_node_levels = work.tree.grid.nodeLevels(),
-                                                       .tree_entries_per_word = work.tree.entriesPerWord(),
+    vk::Pass pass = graph.addPass(gpu::radiance::Cones{.node_levels = work.tree.grid.nodeLevels(),
+                                                       .entries_per_word = work.tree.entriesPerWord(),
                                                        .orthographic = work.camera.orthographic});
     gpu::RadianceConesParams params{};
     params.tree = readTree(pass, work.tree, work.cache.treeTable());
