@@ -5,7 +5,7 @@
 # Every file is taken once, without #version and include guards; the macros of shared/gpu.h become what they stand for.
 # Names at file scope get the prefix zvo_, macros ZVO_, in code and in comments: names that are declared at the first
 # column, as the code's style has it. Names that begin so already stay. `#ifdef` of what is listed here is decided, and
-# so is `#if defined(A) && defined(B)` if one of both is undefined.
+# so is `#if defined(A) && defined(B)` if one of both is undefined. Other conditions with such names are errors.
 cmake_minimum_required(VERSION 3.25)
 set(decided_defined TRAVERSE_VARIABLES)
 set(decided_undefined __cplusplus BOUND TRAVERSE_PATHS TRAVERSE_ENTRIES FACES_BINDING STATES_BINDING
@@ -87,20 +87,28 @@ function(emit_buffer type align)
     endforeach()
 endfunction()
 
-# The kind of a block that #if, #ifdef or #ifndef begins: of an include guard, kept as it is, or decided: taken, or
-# skipped.
+# The kind of a block of `file` that #if, #ifdef or #ifndef begins: of an include guard, kept as it is, or decided:
+# taken, or skipped.
 function(kind_of_block directive symbol result)
     set(kind kept)
-    string(REGEX MATCHALL "defined[(]${word}" all_defined "${symbol}")
-    list(TRANSFORM all_defined REPLACE "^defined[(]" "")
     if(directive STREQUAL "ifndef" AND symbol MATCHES "^ZVO_SHADERS_")
         set(kind guard)
-    elseif(directive STREQUAL "if" AND all_defined)
-        foreach(one IN LISTS all_defined)
+    elseif(directive STREQUAL "if")
+        string(REGEX MATCHALL "${word}" names "${symbol}")
+        foreach(one IN LISTS names)
+            if(one IN_LIST decided AND kind STREQUAL "kept")
+                set(kind undecided)
+            endif()
             if(one IN_LIST decided_undefined)
                 set(kind skipped)
             endif()
         endforeach()
+        if(NOT kind STREQUAL "kept" AND NOT symbol MATCHES "^defined[(]${word}[)]( && defined[(]${word}[)])*$")
+            set(kind undecided)
+        endif()
+        if(kind STREQUAL "undecided")
+            message(FATAL_ERROR "${file}: cannot decide #if ${symbol}")
+        endif()
     elseif(symbol IN_LIST decided)
         set(is_defined FALSE)
         if(symbol IN_LIST decided_defined)
@@ -149,6 +157,14 @@ function(bundle file)
                 set(block taken)
                 if(directive STREQUAL "elif")
                     kind_of_block(if "${symbol}" block)
+                    if(block STREQUAL "kept") # its #endif would be, too
+                        message(FATAL_ERROR "${file}: cannot decide #elif ${symbol}")
+                    endif()
+                endif()
+            elseif(directive STREQUAL "elif" AND block STREQUAL "kept")
+                kind_of_block(if "${symbol}" kind)
+                if(NOT kind STREQUAL "kept")
+                    message(FATAL_ERROR "${file}: cannot leave out #elif ${symbol}")
                 endif()
             endif()
             if(NOT directive STREQUAL "endif")

@@ -178,7 +178,7 @@ public:
     {
         RadianceTracer tracer(m_device.device());
         tracer.resize(m_width, m_height);
-        vk::BufferOf<gpu::PixelSum> cone_sums(m_device.device(), "cones", std::uint64_t{m_width} * m_height);
+        RadianceView cones(m_device.device(), m_width, m_height);
         std::vector<KeptRow> rows;
         std::vector<double> ms;
         const auto addFrame = [&]
@@ -195,21 +195,20 @@ public:
             std::vector<double> cone_ms;
             const double settled_ms = totalOf(ms);
             tracer.beginPicture();
-            m_device.run([&](vk::FrameGraph& graph) { graph.fill(cone_sums, 0); });
+            cones.begin();
             for (std::uint32_t frame = 0; frame < kPictureFrames; ++frame)
             {
                 const std::vector<vk::PassTime> passes = addFrame();
                 ms.push_back(sumMs(passes));
-                cone_ms.push_back(sumMs(passes) - sumOfViews(passes) + addCones(tracer, cone_sums, frame));
+                cone_ms.push_back(sumMs(passes) - sumOfViews(passes) + addCones(tracer, cones));
             }
-            const SampledPicture seen = tracer.picture();
             KeptRow row = rowOf("cached", count);
-            compareKept(row, reference, seen, path, tracer.cache());
+            compareKept(row, reference, tracer.picture(), path, tracer.cache());
             row.frame_ms = medianOf(ms);
             row.total_ms = totalOf(ms);
             rows.push_back(row);
             row = rowOf("cones", count);
-            compareKept(row, reference, {cone_sums, seen.width, seen.height, seen.sample_count}, path, tracer.cache());
+            compareKept(row, reference, cones.picture(), path, tracer.cache());
             row.frame_ms = medianOf(cone_ms);
             row.total_ms = settled_ms + totalOf(cone_ms);
             rows.push_back(row);
@@ -241,16 +240,15 @@ private:
         row.bytes_of_voxel = static_cast<double>(cache.bytes()) / static_cast<double>(m_scene.tree.voxel_count);
     }
 
-    // Adds what is seen through cones in the last frame of a picture, which is its frame of that number. Returns the
-    // milliseconds.
-    double addCones(RadianceTracer& tracer, vk::BufferOf<gpu::PixelSum>& sums, std::uint32_t frame)
+    // Adds what cones see in the tracer's last frame. Returns the milliseconds.
+    double addCones(const RadianceTracer& tracer, RadianceView& cones)
     {
-        const TraceCamera through = shifted(m_camera, pointOfPixel(frame));
+        const TraceCamera through = shifted(m_camera, pointOfPixel(cones.frameCount()));
         return sumMs(m_device.run(
             [&](vk::FrameGraph& graph)
             {
-                tracer.cache().view(graph, m_scene.tree, m_scene.light, through, tracer.buffers(), sums,
-                                    {.view = KeptView::Cones});
+                cones.add(graph, tracer.cache(), m_scene.tree, m_scene.light, through, tracer.buffers(),
+                          KeptView::Cones);
             }));
     }
 

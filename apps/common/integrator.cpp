@@ -10,8 +10,7 @@ namespace zvo::cli
 
 Integrator integratorOf(std::string_view option, std::string_view text)
 {
-    const std::string name =
-        oneOf(option, text, {kIntegratorNames[0], kIntegratorNames[1], kIntegratorNames[2], kIntegratorNames[3]});
+    const std::string name = oneOf(option, text, kIntegratorNames);
     return static_cast<Integrator>(std::ranges::find(kIntegratorNames, name) - kIntegratorNames.begin());
 }
 

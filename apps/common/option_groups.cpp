@@ -40,6 +40,11 @@ CLI::Option* addText(CLI::App& app, const char* name, std::string& target, const
 
 std::string oneOf(std::string_view option, std::string_view text, std::initializer_list<std::string_view> names)
 {
+    return oneOf(option, text, std::span(names));
+}
+
+std::string oneOf(std::string_view option, std::string_view text, std::span<const std::string_view> names)
+{
     if (std::find(names.begin(), names.end(), text) == names.end())
     {
         throw Error(ErrorCode::Usage, fmt::format("{} {}: expected one of {}", option, text, fmt::join(names, ", ")));

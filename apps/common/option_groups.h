@@ -8,6 +8,7 @@
 #include <CLI/CLI.hpp>
 
 #include <initializer_list>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -28,6 +29,7 @@ CLI::Option* addText(CLI::App& app, const char* name, std::string& target, const
 void addFolder(CLI::App& app, const char* name, std::optional<std::filesystem::path>& folder, const std::string& what);
 
 /// Returns text, which must be one of names. Throws Error{Usage}.
+std::string oneOf(std::string_view option, std::string_view text, std::span<const std::string_view> names);
 std::string oneOf(std::string_view option, std::string_view text, std::initializer_list<std::string_view> names);
 
 void addDeviceOptions(CLI::App& app, DeviceOptions& options);

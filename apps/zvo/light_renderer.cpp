@@ -92,13 +92,11 @@ LightRenderer::LightRenderer(vk::HeadlessDevice& device, const RenderOptions& op
     }
 }
 
-// Records a frame of light that is kept on voxels.
-void LightRenderer::addKeptFrame(vk::FrameGraph& graph, const DeviceTree& tree, KeptView view)
+RadianceOptions LightRenderer::keptOptions() const
 {
     RadianceOptions kept = m_options.kept.radiance;
     kept.seed = m_options.paths.path.seed;
-    kept.view = view;
-    m_kept->addFrame(graph, tree, m_environment, *m_camera, kept);
+    return kept;
 }
 
 // Records a sample of the picture.
@@ -106,7 +104,9 @@ void LightRenderer::addSample(vk::FrameGraph& graph, const DeviceTree& tree)
 {
     if (m_kept)
     {
-        addKeptFrame(graph, tree, m_options.integrator == Integrator::Cones ? KeptView::Cones : KeptView::Faces);
+        const bool is_cones = m_options.integrator == Integrator::Cones;
+        m_kept->addFrame(graph, tree, m_environment, *m_camera, keptOptions(),
+                         is_cones ? KeptView::Cones : KeptView::Faces);
         return;
     }
     PathOptions path = m_options.paths.path;
@@ -121,10 +121,8 @@ void LightRenderer::settle(const DeviceTree& tree, Progress& progress, std::vect
     const std::uint32_t count = m_options.kept.settle;
     for (std::uint32_t frame = 0; frame < count && !interrupted(); ++frame)
     {
-        // What it shows is thrown away: none is by cones.
-        const std::vector<vk::PassTime> times =
-            m_device.run([&](vk::FrameGraph& graph) { addKeptFrame(graph, tree, KeptView::Faces); });
-        m_kept->beginPicture(); // as a window does in each frame
+        const std::vector<vk::PassTime> times = m_device.run(
+            [&](vk::FrameGraph& graph) { m_kept->settle(graph, tree, m_environment, *m_camera, keptOptions()); });
         passes.insert(passes.end(), times.begin(), times.end());
         progress.within(static_cast<double>(frame + 1) / (count + m_options.sampleCount()),
                         fmt::format("light settles, {}/{} frames", frame + 1, count));

@@ -47,7 +47,7 @@ public:
 private:
     void setSize();
     [[nodiscard]] SampledPicture picture() const { return m_kept ? m_kept->picture() : m_tracer.picture(); }
-    void addKeptFrame(vk::FrameGraph& graph, const DeviceTree& tree, KeptView view);
+    [[nodiscard]] RadianceOptions keptOptions() const;
     void addSample(vk::FrameGraph& graph, const DeviceTree& tree);
     void settle(const DeviceTree& tree, Progress& progress, std::vector<vk::PassTime>& passes);
     SampledPicture denoise(std::vector<vk::PassTime>& passes);

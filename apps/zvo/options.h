@@ -42,7 +42,7 @@ struct PathRenderOptions
 struct KeptRenderOptions
 {
     RadianceOptions radiance;
-    std::uint32_t settle = 64; // frames before the first picture
+    std::uint32_t settle = 128; // frames before the first picture
 };
 
 struct RenderOptions

@@ -23,13 +23,13 @@ struct KeptLightInfo
     std::uint32_t width = 160;
     std::uint32_t height = 90;
 
-    std::uint64_t faces = 0; // that there is room for, at most 2^31; 0: 2.5 for each voxel of the first tree
+    std::uint64_t faces = 0; // that there is room for, at most 2^29; 0: 2.5 for each voxel of the first tree
 };
 
 /// Options of a frame.
 struct KeptFrameInfo
 {
-    std::uint32_t rays = 1U << 15; // the most faces that get a sample: a ray and a shadow ray each; 1 to 2^22
+    std::uint32_t rays = 1U << 14; // the most faces that get a sample: a ray and a shadow ray each; 1 to 2^22
     std::uint32_t seed = 0;        // of the random numbers
 };
 
@@ -62,11 +62,12 @@ public:
     /// sees by itself. In another grid than that of the last call, all begins anew; so it does after a call that failed
     /// or whose frame was lost. The environment must live for as long as shaders read.
     ///
-    /// Memory, from the first call on: 48 bytes for each face that there is room for, twice that from when the tree
-    /// changes; about 300 bytes for each of the rays; and what Tracer::tracePaths() takes for lights of the tree. First
-    /// stages: ALL_TRANSFER, COMPUTE_SHADER and DRAW_INDIRECT; last stages: COMPUTE_SHADER and ALL_TRANSFER; on
-    /// resources of zvo. Before the host's shaders read: Recorder::makeVisible(); before the next call: readers of its
-    /// Recorder. Cost: the camera's rays, and two rays for each face that is sampled.
+    /// Memory, from the first call on: a table of 1.5 slots for each face that there is room for, 32 bytes a slot; for
+    /// a DynamicTree a second one, for others once the tree or the number of rays is another; about 300 bytes for each
+    /// of the rays; and what Tracer::tracePaths() takes for lights of the tree. First stages: ALL_TRANSFER,
+    /// COMPUTE_SHADER and DRAW_INDIRECT; last stages: COMPUTE_SHADER and ALL_TRANSFER; on resources of zvo. Before the
+    /// host's shaders read: Recorder::makeVisible(); before the next call: readers of its Recorder. Cost: the camera's
+    /// rays, and two rays for each face that is sampled.
     ///
     /// Throws Error{Usage} for cameras that are not valid, for numbers out of range, and for an environment or a tree
     /// that was lost; then nothing is recorded. Throws Error{Memory}, and what making a kernel throws; then shaders

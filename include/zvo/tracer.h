@@ -141,7 +141,7 @@ public:
     /// the camera's rays, the light where they hit, lamps and what is outside, as `zvo render --integrator cached`
     /// shows them. tree, environment: those of the last KeptLight::update(), which comes before, unchanged since. The
     /// camera may be another one, and the picture larger than the rays that the light has: faces that these have not
-    /// found are black.
+    /// found show the light of a brick around them, or are black where none keeps any.
     ///
     /// Stages, barriers and what images need: as trace(). Memory, from the first call on: at most 20 bytes a pixel.
     /// Cost: pixels.

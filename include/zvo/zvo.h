@@ -824,7 +824,7 @@ typedef struct ZvoKeptFrameInfo
 
 #define ZVO_KEPT_FRAME_INFO_INIT                                                                                       \
     {                                                                                                                  \
-        sizeof(ZvoKeptFrameInfo), 32768, 0                                                                             \
+        sizeof(ZvoKeptFrameInfo), 16384, 0                                                                             \
     }
 
 /// As zvo::KeptLightStats.

@@ -5,6 +5,7 @@
 #include "lib/sobol.glsl"
 #include "radiance/kept_faces.h"
 #include "light/map_radiance.glsl"
+#include "light/sun_irradiance.glsl"
 #include "path/face.glsl"
 
 // These are parameters of zvo's kernels. Here tables differ, so setKeptLight() sets them.
@@ -20,7 +21,7 @@ FaceTable params;
 #include "radiance/kept_light.glsl"
 #include "radiance/light_of_brick.glsl"
 
-const uint kPointRaysMax = 1024u;
+const uint kPointRaysMax = 256u;         // rays of a point: all of their iterations are one invocation's
 const uint kSettledSamples = 8u;         // from which on a face's light counts in full where it is mixed with others'
 const float kBrickKnown = 1.0 / 16.0;    // how well light is known that is a brick's
 const float kFacingMin = 1.0 / 64.0;     // squared component of a normal below which faces of an axis do not count
@@ -130,12 +131,15 @@ vec3 zvo_outside(KeptLightTable_ConstPtr light, vec3 direction)
 }
 
 // The light that comes from a hit, against its ray: what the voxel emits and reflects of the kept light, as zvo's
-// pictures of it show; for a miss what is outside, without the sun. w: 1, or 0 where it is not known what it reflects,
-// and rgb is what it emits. origin, direction: of the ray in world space.
+// pictures of it show; for a miss what is outside, without the sun. w: 1, or 0 where it is not known what it reflects
+// or what is outside, and rgb is 0. origin, direction: of the ray in world space.
 vec4 zvo_keptRadiance(KeptLightTable_ConstPtr light, TreeTable_ConstPtr tree, Hit hit, vec3 origin, vec3 direction)
 {
     if (!zvo_isHit(hit))
-        return zvo_isUnfinished(hit) ? vec4(0.0) : vec4(zvo_outside(light, direction), 1.0);
+    {
+        bool is_known = !zvo_isUnfinished(hit) && uint64_t(light.data[0].environment) != 0ul;
+        return is_known ? vec4(zvo_outside(light, direction), 1.0) : vec4(0.0);
+    }
     zvo_Surface surface = zvo_surface(tree, hit, direction);
     vec3 position = zvo_position(tree, hit, origin, direction);
     vec4 kept = vec4(0.0);
@@ -155,10 +159,9 @@ vec4 zvo_keptRadiance(KeptLightTable_ConstPtr light, TreeTable_ConstPtr tree, Hi
 }
 
 // A random direction to the side of a normal (length 1), by the cosine with it.
-vec3 cosineDirection(vec3 normal, vec2 u)
+vec3 randomDirection(vec3 normal, vec2 u)
 {
-    float angle = 2.0 * kPi * u.y;
-    return frameAround(normal) * vec3(sqrt(u.x) * vec2(cos(angle), sin(angle)), sqrt(1.0 - u.x));
+    return frameAround(normal) * cosineDirection(u.x, 2.0 * kPi * u.y);
 }
 
 // Where rays of a point of a surface begin: behind all voxels that its plane touches.
@@ -167,8 +170,9 @@ vec3 aboveVoxels(TreeTable_ConstPtr tree, vec3 position, vec3 normal)
     return position + 1.01 * tree.data[0].voxel_size * dot(abs(normal), vec3(1.0)) * normal;
 }
 
-// The share of so many rays, at most 1,024, from a point of a surface with this normal (length 1), by the cosine with
-// it, that meet nothing within a reach in world units. seed: of their directions.
+// The share of so many rays, at most 256, from a point of a surface with this normal (length 1), by the cosine with it,
+// that meet nothing within a reach in world units. seed: of their directions. lavapipe ends all loops of an invocation
+// after 65,535 iterations, of all rays together.
 float zvo_occlusion(TreeTable_ConstPtr tree, vec3 position, vec3 normal, uint rays, float reach, uint seed)
 {
     vec3 origin = aboveVoxels(tree, position, normal);
@@ -176,13 +180,13 @@ float zvo_occlusion(TreeTable_ConstPtr tree, vec3 position, vec3 normal, uint ra
     uint free = 0u;
     for (uint i = 0u; i < count; ++i)
     {
-        vec3 direction = cosineDirection(normal, samplePair(i, seed, 0u));
+        vec3 direction = randomDirection(normal, samplePair(i, seed, 0u));
         free += zvo_occluded(tree, origin, direction, 0.0, reach) ? 0u : 1u;
     }
     return float(free) / float(count);
 }
 
-// The light that arrives at a point as zvo_irradiance() gives it, of so many rays, at most 1,024, which find what
+// The light that arrives at a point as zvo_irradiance() gives it, of so many rays, at most 256, which find what
 // zvo_keptRadiance() tells of their hits, and of one to the middle of the sun: where no faces are kept, or for what is
 // not among the voxels. seed: of the directions. w: the share of rays that found light; 0: none, and rgb is 0.
 vec4 zvo_gatherIrradiance(KeptLightTable_ConstPtr light, TreeTable_ConstPtr tree, vec3 position, vec3 normal, uint rays,
@@ -193,7 +197,7 @@ vec4 zvo_gatherIrradiance(KeptLightTable_ConstPtr light, TreeTable_ConstPtr tree
     vec4 sum = vec4(0.0);
     for (uint i = 0u; i < count; ++i)
     {
-        vec3 direction = cosineDirection(normal, samplePair(i, seed, 0u));
+        vec3 direction = randomDirection(normal, samplePair(i, seed, 0u));
         Hit hit = zvo_trace(tree, origin, direction, 0.0, kTraceTimeMax);
         vec4 found = zvo_keptRadiance(light, tree, hit, origin, direction);
         sum += found.w > 0.0 ? found : vec4(0.0);
@@ -204,17 +208,15 @@ vec4 zvo_gatherIrradiance(KeptLightTable_ConstPtr light, TreeTable_ConstPtr tree
     Environment_ConstPtr environment = light.data[0].environment;
     if (uint64_t(environment) != 0ul)
     {
-        vec3 to_sun = environment.data[0].to_sun;
-        // Of a disc of that height, irradiance over pi.
-        vec3 sun = environment.data[0].sun * 2.0 * environment.data[0].sun_height * max(dot(normal, to_sun), 0.0);
-        if (sun != vec3(0.0) && !zvo_occluded(tree, origin, to_sun, 0.0, kTraceTimeMax))
+        vec3 sun = sunIrradiance(environment, normal);
+        if (sun != vec3(0.0) && !zvo_occluded(tree, origin, environment.data[0].to_sun, 0.0, kTraceTimeMax))
             irradiance += sun;
     }
     return vec4(irradiance, sum.w / float(count));
 }
 
 #ifdef ZVO_DETAIL
-#include "host/cone.glsl"
+#include "radiance/cone.glsl"
 
 // The light that comes to a point through a cone, and from outside of the grid through the share of it that has met
 // nothing within a reach in world units: the mean over the cone, of nodes as wide as it, which keep light as bricks. It

@@ -59,7 +59,7 @@
 #ifndef ZVO_TRACE_GLSL
 #define ZVO_TRACE_GLSL
 
-#include "host/tree.glsl"
+#include "trace/any_tree.glsl"
 #include "host/kept_light.glsl"
 
 #endif

@@ -43,12 +43,10 @@ void leaveFace(vec3 position, uint bounce, inout NextRay next)
     const float pi = 3.14159265358979;
     vec3 normal = normalAxis(next.state.normal);
     vec2 u = samplePair(params.sample_index, next.state.seed, bounce * kPathPairs + kPairDirection);
-    float angle = 2.0 * pi * u.y;
-    float cosine = sqrt(1.0 - u.x);
-    vec3 direction = frameAround(normal) * vec3(sqrt(u.x) * vec2(cos(angle), sin(angle)), cosine);
-    next.state.density = cosine / pi;
+    vec3 direction = cosineDirection(u.x, 2.0 * pi * u.y);
+    next.state.density = direction.z / pi;
     next.state.kinds = kindsAt(LitPlace(position, normal), next.state.normal);
-    next.ray = Ray(position, 0.0, inverseDirection(direction), kTraceTimeMax);
+    next.ray = Ray(position, 0.0, inverseDirection(frameAround(normal) * direction), kTraceTimeMax);
 }
 
 // The light that a path looks for as it goes on: from outside of the grid, of voxels, or none.

@@ -25,6 +25,7 @@ layout(push_constant, scalar) uniform Push
 #include "radiance/between_faces.glsl"
 #include "radiance/brick_sum.glsl"
 #include "radiance/share_of_brick.glsl"
+#include "radiance/brick_spread.glsl"
 
 // The mark of a face whose path has hit what its number tells.
 uint markAfter(uint mark, uint number)
@@ -76,13 +77,15 @@ void main()
     KeptFace around;
     uint brick;
     vec4 sum = lightBetweenFaces(cell >> 2, normalOfFace(key), (vec3(cell & 3u) + 0.5) / 4.0, 1u, brick, around);
-    vec3 between = sum.rgb / max(sum.w, 1e-6);
-    FaceSpread spread = spreadOf(luminance(sampled), luminance(last), luminance(between));
-    float worth = 0.0;
+    vec3 brick_light = sum.rgb / max(sum.w, 1e-6);
+    BrickSpread spread = spreadOf(luminance(sampled), luminance(last), luminance(brick_light));
+    float brick_samples = 0.0;
     if (brick != kNoFace)
     {
         FaceState state_of_brick = loadFaceState(brick);
-        worth = worthOfBrick(state_of_brick.own);
+        uint spread_samples;
+        BrickSpread known = spreadIn(state_of_brick.own, spread_samples);
+        brick_samples = samplesOfBrick(known, spread_samples);
         bool is_spread = sum.w > 0.0 && before != 0u;
         uint counts = kSumOfSample + (touched && params.touched_window < params.window ? kSumOfMove : 0u) +
                       (is_spread ? kSumOfSpread : 0u);
@@ -90,7 +93,7 @@ void main()
         if (is_spread)
             addSpread(state_of_brick.recent, spread, thresholds.xy);
     }
-    precise vec3 shown = mix(own, between, sum.w > 0.0 ? shareOfBrick(float(weight), worth) : 0.0);
+    precise vec3 shown = mix(own, brick_light, sum.w > 0.0 ? shareOfBrick(float(weight), brick_samples) : 0.0);
 
     uint64_t_Ptr(uint64_t(params.faces)).data[2u * slot + 1u] = packUint2x32(packKept(shown, weight, thresholds));
     params.states.data[slot] = FaceState(mark, packRecent(recent, thresholds), packKept(own, weight, thresholds));

@@ -1,7 +1,6 @@
 #version 460
 // SPDX-License-Identifier: MIT
-// Starts a path from a random point of each listed face that the frame takes, and takes the others off the list. Lists
-// the bricks of these faces.
+// Starts a path from a random point of each face that the frame samples, and lists the bricks around these faces.
 #extension GL_GOOGLE_include_directive : require
 #include "radiance/radiance.h"
 #include "lib/bound.glsl"
@@ -37,22 +36,16 @@ layout(push_constant, scalar) uniform Push
 #include "radiance/insert_face.glsl"
 #include "radiance/kept_light.glsl"
 #include "radiance/list_brick.glsl"
-#include "radiance/rank.glsl"
 
 void main()
 {
-    uint i = threadIndex();
-    uint length = listLength(kWantedEven + (params.frame & 1u), kListPaths);
-    bool taken = i < length;
-    uint slot = params.wanted.data[min(i, length - 1u)];
-    KeptFace face = loadFace(slot);
-    uvec2 key = face.key;
-    uint mark = loadFaceState(slot).mark;
-    taken = taken && rankOfFace(face, mark, params.frame) < params.counters.data[0].rank_limit;
-    uint path = appendTo(0u, kListPaths, taken);
+    uint path = threadIndex();
+    uint count = listLength(0u, kListPaths);
+    bool exists = path < count;
+    uvec2 key = loadFace(params.numbers.data[min(path, count - 1u)]).key; // of kListPaths, the first list
 
     NextRay next;
-    next.exists = taken;
+    next.exists = exists;
     uint seed = hashPair(hashPair(key.x, key.y), params.seed);
     next.state = PathState(vec3(1.0), path, seed, normalOfFace(key), 0.0, vec3(0.0));
     next.choice = samplePair(params.sample_index, seed, kPairOther).x;
@@ -62,15 +55,14 @@ void main()
     float edge = exp2(-2.0 * float(kNodeLevels));
     vec3 point = pointOfFace(cell, next.state.normal, edge, samplePair(params.sample_index, seed, kPairPixel));
     leaveFace(pointOnFace(point, cell, normal), 0u, next);
-    if (taken)
+    if (exists)
     {
         storeRay(params.rays, path, next.ray);
         storeState(params.path_states, path, next.state);
         params.radiance.data[path] = vec3(0.0);
-        params.numbers.data[path] = slot;
     }
 
-    listBrick(cell, face_normal, 1u, taken);
+    listBrick(cell, face_normal, 1u, exists);
     bool in_map = seeksMapLight(next);
     uint map_light = appendTo(0u, kListMapLights, in_map);
     if (in_map)
@@ -82,7 +74,4 @@ void main()
         if (in_voxels)
             params.numbers.data[kListVoxelLights * params.batch + voxel_light] = path;
     }
-    if (i < length)
-        params.states.data[slot].mark =
-            (mark & ((kMarkMovedFrames << kMarkMovedShift) | kFaceMoved)) | (params.frame & kMarkFrames);
 }

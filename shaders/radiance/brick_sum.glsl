@@ -2,11 +2,10 @@
 // Sums of bricks (radiance.h): integers, so that the order of threads does not matter. The includer includes
 // radiance/radiance.h and radiance/kept_light.glsl before, and declares params.sums.
 
-const float kSpreadMost = 512.0; // of FaceSpread
-const float kSumMost = exp2(26.0) - 1.0; // steps of a sample, so that 64 fit
+const float kSumMost = 67108860.0; // steps of a sample, so that 64 fit: 2^26 - 4
 
-// A step of the sums of a brick that keeps a light: between 2^-12 and 2^-13 of its strongest channel, so that samples
-// of up to 8,192 times as much fit. Brighter ones count as that.
+// A step of the sums of a brick that keeps a light: between 2^-11 and 2^-12 of its strongest channel, so that samples
+// of up to 16,384 times as much fit. Brighter ones count as that. Of a brick that keeps none, 2^-14.
 float stepOfBrick(uvec2 light)
 {
     vec3 kept = keptRadiance(light);

@@ -19,7 +19,7 @@ layout(constant_id = 0) const uint kNodeLevels = 5u;
 layout(constant_id = 1) const uint kEntriesPerWord = 0u;
 layout(constant_id = 2) const bool kOrthographic = false;
 
-#include "host/tree.glsl"
+#include "trace/any_tree.glsl"
 #include "light/map_radiance.glsl"
 #include "path/face.glsl"
 #include "path/strip.glsl"
@@ -36,7 +36,7 @@ layout(push_constant, scalar) uniform Push
 #include "radiance/face_key.glsl"
 #include "radiance/face_table.glsl"
 #include "radiance/kept_light.glsl"
-#include "host/cone.glsl"
+#include "radiance/cone.glsl"
 #include "radiance/hit_loads.glsl"
 #include "radiance/seen_hit.glsl"
 

@@ -19,6 +19,8 @@ layout(push_constant, scalar) uniform Push
 #include "radiance/face_table.glsl"
 #include "radiance/kept_light.glsl"
 #include "radiance/brick_sum.glsl"
+#include "radiance/share_of_brick.glsl"
+#include "radiance/brick_spread.glsl"
 
 // The weight of the last `added` of so many samples, in a mean in which the n-th weighs as much as its number.
 float weightOfLast(uint added, uint samples)
@@ -29,13 +31,15 @@ float weightOfLast(uint added, uint samples)
 }
 
 // FaceState::own of the brick with what the sums tell.
-uvec2 spreadAfter(uvec2 words, BrickSum sum)
+uvec2 spreadAfter(uvec2 words, BrickSum sum, uint random)
 {
     uint count = sum.counts / kSumOfSpread;
-    uint samples = min(words.y + count, kKeptWeightMax);
-    precise vec2 added = vec2(sum.apart, sum.between) / float((1u << kSpreadShift) * max(count, 1u));
-    precise vec2 moved = mix(unpackHalf2x16(words.x), added, weightOfLast(count, max(samples, 1u)));
-    return count == 0u ? words : uvec2(packHalf2x16(moved), samples);
+    uint before;
+    BrickSpread spread = spreadIn(words, before);
+    uint samples = min(before + count, kKeptWeightMax);
+    precise vec2 added = vec2(sum.total, sum.between) / float((1u << kSpreadShift) * max(count, 1u));
+    precise vec2 mean = mix(vec2(spread.total, spread.between), added, weightOfLast(count, max(samples, 1u)));
+    return count == 0u ? words : packSpread(BrickSpread(mean.x, mean.y), samples, random & 1023u);
 }
 
 void main()
@@ -49,12 +53,13 @@ void main()
     params.sums.data[index] = BrickSum(uvec3(0u), 0u, 0, 0);
     KeptFace face = loadFace(slot);
     uvec2 own = params.states.data[slot].own;
-    params.states.data[slot] = FaceState(params.frame & kMarkFrames, 0u, spreadAfter(own, sum));
+    uint random = hashPair(hashPair(face.key.y, face.key.x), params.frame);
+    params.states.data[slot] = FaceState(params.frame & kMarkFrames, 0u, spreadAfter(own, sum, random));
     uint added = sum.counts & (kSumOfMove - 1u);
     if (added == 0u)
         return;
 
-    vec3 thresholds = thresholdsOf(hashPair(hashPair(face.key.y, face.key.x), params.frame));
+    vec3 thresholds = thresholdsOf(random);
     uint moved = sum.counts & (kSumOfSpread - kSumOfMove);
     uint samples = min(keptWeight(face.light) + added, moved != 0u ? params.moved_window : params.window);
     precise vec3 sampled = vec3(sum.light) * (stepOfBrick(face.light) / float(added));

@@ -33,7 +33,6 @@ const uint kNodeLevels = 0u; // no hit is a node's
 #include "radiance/face_table.glsl"
 #include "radiance/hit_loads.glsl"
 #include "radiance/kept_light.glsl"
-#include "radiance/light_of_brick.glsl"
 #include "radiance/insert_face.glsl"
 #include "radiance/want_face.glsl"
 
@@ -68,9 +67,7 @@ void main()
         if (slot != kNoFace)
         {
             FaceState state = loadFaceState(slot);
-            bool has_none = keptWeight(state.own) == 0u;
-            vec3 light = recentRadiance(state.recent) + lightOfBrick(hitCell(hit), normal, has_none).rgb;
-            params.radiance.data[i] = albedoOf(attributeAt(true, hit)) * light;
+            params.radiance.data[i] = albedoOf(attributeAt(true, hit)) * recentRadiance(state.recent);
         }
     }
     wantFace(slot, 0u, wantedList(params.frame + 1u));

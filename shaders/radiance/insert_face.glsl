@@ -30,7 +30,7 @@ uint insertFace(uvec3 cell, uint normal, uint level)
     }
     if (claimed && level == 0u)
         atomicAdd(params.counters.data[0].face_count, 1u);
-    if (searching)
+    if (searching && level == 0u)
         atomicAdd(params.counters.data[0].refused, 1u);
     return searching ? kNoFace : slot;
 }

@@ -25,7 +25,8 @@
 //
 //   radiance/want      faces that the camera sees: into the table, and into the frame's list
 //   radiance/tally     counts the faces of the list by their rank; its last threads find the rank that the budget ends
-//   radiance/begin     a path from each face of a lower rank; the brick of level 1 around it: into table and list
+//   radiance/take      lists the faces of a lower rank
+//   radiance/begin     a path from each of them; the brick of level 1 around it: into table and list
 //   radiance/surround  the bricks of a level around those of the one before that are listed: likewise
 //     trace/rays, radiance/gather            what the paths hit, and the light that is kept there
 //     path/miss, path/emitter                light that they have met
@@ -56,7 +57,7 @@ const uint kRadianceGroup = 64u; // threads of a workgroup
 ///     recent  red 8 | green 8 | blue 8 | exponent 8 (radiance/kept_light.glsl): a mean of the last samples
 ///             of a brick: its index in BrickSums, while it is listed
 ///     own     as KeptFace::light, of the face's samples alone
-///             of a brick: FaceSpread, as two halves, and the number of samples that it is of
+///             of a brick: BrickSpread, and the number of samples that it is of (radiance/brick_spread.glsl)
 struct FaceState
 {
     uint mark;
@@ -70,7 +71,7 @@ struct BrickSum
 {
     uvec3 light; // in steps that depend on the light that the brick keeps (radiance/brick_sum.glsl)
     uint counts; // of samples 8 | of those where what moves matters, or has touched rays, 8 | of what follows 8
-    int apart;   // FaceSpread (radiance/share_of_brick.glsl), in steps of 2^-kSpreadShift
+    int total;   // BrickSpread (radiance/share_of_brick.glsl), in steps of 2^-kSpreadShift
     int between;
 };
 GPU_BUFFER(BrickSum, 4);
@@ -79,10 +80,10 @@ const uint kSpreadShift = 14u;
 const uint kDiffuseCones = 6u; // through which radiance/cones gathers light
 const uint kBrickFaces = 4u;   // what means of bricks count in samples, over what those of faces do
 
-// How many samples of a face the light between bricks weighs as much as, at most, and how many times so many a face has
-// when it counts alone.
-const float kBrickWorth = 128.0;
-const float kBrickGone = 16.0;
+// How many samples of a face the light of its brick counts as, at most, and how many times so many a face has that
+// shows its own light alone.
+const float kBrickSamplesMax = 128.0;
+const float kBrickShareEnds = 16.0;
 
 const uint kKeptWeightMax = 1023u;
 const uint kRecentSamples = 16u; // that FaceState::recent counts
@@ -98,7 +99,8 @@ const uint kMarkFrames = (1u << 15) - 1u; // of a mark
 const uint kMarkMovedShift = 15u;
 const uint kMarkMovedFrames = (1u << 14) - 1u;
 
-// In PathBatch::numbers, of kListPaths: the path's ray has hit what moves; its ray to a light has.
+// In PathBatch::numbers, of kListPaths, beside a slot: the path's ray has hit what moves; its ray to a light has.
+const uint kFaceSlotsMax = 1u << 30;
 const uint kPathTouched = 1u << 30;
 const uint kPathMoved = 1u << 31;
 
@@ -164,11 +166,22 @@ struct RadianceTallyParams // push constants of radiance/tally: a thread a liste
 };
 GPU_KERNEL(radiance, tally, Tally, RadianceTallyParams)
 
-struct RadianceBeginParams // push constants of radiance/begin: a thread a listed face
+struct RadianceTakeParams // push constants of radiance/take: a thread a listed face
+{
+    GPU_CONST_PTR(KeptFace) faces;
+    GPU_PTR(FaceState) states;
+    GPU_CONST_PTR(uint) wanted;
+    GPU_CONST_PTR(RadianceCounters) counters;
+    GPU_PTR(DispatchArgs) lists;
+    GPU_PTR(uint) numbers; // as in RadianceBeginParams
+    uint frame;
+};
+GPU_KERNEL(radiance, take, Take, RadianceTakeParams)
+
+struct RadianceBeginParams // push constants of radiance/begin: a thread a path
 {
     GPU_PTR(KeptFace) faces;
     GPU_PTR(FaceState) states;
-    GPU_CONST_PTR(uint) wanted;
     GPU_PTR(RadianceCounters) counters;
     GPU_CONST_PTR(vec2) gives;            // [kNormals] as Environment::gives
     GPU_CONST_PTR(LightNode) light_nodes; // kEmission only
@@ -180,7 +193,6 @@ struct RadianceBeginParams // push constants of radiance/begin: a thread a liste
     GPU_PTR(uint) bricks;   // [kBrickLevels][batch] slots
     uint batch;
     uint run_count;
-    uint frame;
     uint sample_index;
     uint seed;
 };
@@ -292,6 +304,7 @@ GPU_KERNEL_BEGIN(radiance, view, View, RadianceViewParams)
     GPU_CONSTANT(AttributeFormat, format, kFormat8)
     GPU_CONSTANT(bool, emission, false)
     GPU_CONSTANT(bool, reflects, true)
+    GPU_CONSTANT(bool, adds, true)
 GPU_KERNEL_END
 
 struct RadianceConesParams // push constants of radiance/cones: a thread a pixel, in the order of path/path.h

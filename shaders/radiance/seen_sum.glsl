@@ -1,6 +1,13 @@
 // SPDX-License-Identifier: MIT
 // Sums of what the camera sees. The includer includes path/path.h before.
 
+void setRadiance(PixelSum_Ptr sums, uint pixel, vec3 radiance)
+{
+    uint64_t_Ptr words = uint64_t_Ptr(uint64_t(sums));
+    words.data[2u * pixel] = packUint2x32(floatBitsToUint(radiance.rg));
+    words.data[2u * pixel + 1u] = uint64_t(floatBitsToUint(radiance.b));
+}
+
 // Adds radiance to a pixel, of which no other thread has any at the same time. In words of 64 bits: lavapipe pays per
 // word.
 void addRadiance(PixelSum_Ptr sums, uint pixel, vec3 radiance)

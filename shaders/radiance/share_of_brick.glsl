@@ -9,51 +9,52 @@
 // and that of (m - b) (l - b) is t, since the errors of m and l are independent. Where a wall stands in a brick that is
 // bright on one side, t is large, and no light comes through.
 
-// What a sample tells of both: FaceSpread.
-struct FaceSpread
+// What samples tell of both: the mean of (l - b)^2, and that of (m - b) (l - b).
+struct BrickSpread
 {
-    float apart;   // (l - b)^2
-    float between; // (m - b) (l - b)
+    float total;
+    float between;
 };
 
-// In units of the square of what is brighter, the face or the brick. A sample of more than 16 times that counts as 16
-// times, so that none decides alone.
-FaceSpread spreadOf(float sampled, float face, float brick)
+// What a sample tells, in units of the square of what is brighter, the face or the brick. A sample of more than 16
+// times that counts as 16 times, so that none decides alone.
+BrickSpread spreadOf(float sampled, float face, float brick)
 {
     float unit = max(max(face, brick), sampled / 16.0);
-    precise float apart = (sampled - brick) / unit;
-    precise float between = (face - brick) / unit;
-    return unit > 0.0 ? FaceSpread(apart * apart, between * apart) : FaceSpread(0.0, 0.0);
+    precise float sample_apart = (sampled - brick) / unit;
+    precise float face_apart = (face - brick) / unit;
+    return unit > 0.0 ? BrickSpread(sample_apart * sample_apart, face_apart * sample_apart) : BrickSpread(0.0, 0.0);
 }
 
+const float kSpreadMost = 512.0; // of a sample
+
 // Adds the spread of a sample to the sums of a brick, rounded at random by two numbers in [0, 1).
-void addSpread(uint index, FaceSpread spread, vec2 thresholds)
+void addSpread(uint index, BrickSpread spread, vec2 thresholds)
 {
-    vec2 bounded = clamp(vec2(spread.apart, spread.between), -kSpreadMost, kSpreadMost);
+    vec2 bounded = clamp(vec2(spread.total, spread.between), -kSpreadMost, kSpreadMost);
     precise vec2 scaled = bounded * float(1u << kSpreadShift) + thresholds;
     ivec2 rounded = ivec2(floor(scaled));
-    atomicAdd(params.sums.data[index].apart, rounded.x);
+    atomicAdd(params.sums.data[index].total, rounded.x);
     atomicAdd(params.sums.data[index].between, rounded.y);
 }
 
 // The spread of few samples is uncertain: that of so many of a usual brick counts, too.
 const float kUsualSamples = 64.0;
-const float kUsualWorth = 16.0;
+const float kUsualRatio = 16.0; // s / t
 
-// The number of a face's own samples that the brick's light is worth. words: FaceState::own of a brick.
-float worthOfBrick(uvec2 words)
+// How many samples of a face the light of its brick counts as: s / t. samples: that the spread is a mean of.
+float samplesOfBrick(BrickSpread spread, uint samples)
 {
-    vec2 spread = unpackHalf2x16(words.x);
-    float known = float(words.y) / (float(words.y) + kUsualSamples);
-    precise float between = mix(spread.x / (kUsualWorth + 1.0), max(spread.y, 0.0), known);
-    precise float within = max(spread.x - between, 0.0);
-    return words.y == 0u ? kUsualWorth : min(within / max(between, 1e-6), kBrickWorth);
+    float known = float(samples) / (float(samples) + kUsualSamples);
+    precise float between = mix(spread.total / (kUsualRatio + 1.0), max(spread.between, 0.0), known);
+    precise float within = max(spread.total - between, 0.0);
+    return samples == 0u ? kUsualRatio : min(within / max(between, 1e-6), kBrickSamplesMax);
 }
 
 // The weight of the brick's light in what a face with so many samples shows.
-float shareOfBrick(float samples, float worth)
+float shareOfBrick(float samples, float brick_samples)
 {
-    const float kLeast = 1.0 / (1.0 + kBrickGone);
-    precise float share = worth / max(samples + worth, 1.0);
+    const float kLeast = 1.0 / (1.0 + kBrickShareEnds);
+    precise float share = brick_samples / max(samples + brick_samples, 1.0);
     return max(share - kLeast, 0.0) / (1.0 - kLeast);
 }

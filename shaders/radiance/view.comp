@@ -20,6 +20,7 @@ layout(constant_id = 1) const bool kOrthographic = false;
 layout(constant_id = 2) const uint kFormat = kFormat8; // of attributes
 layout(constant_id = 3) const bool kEmission = false;  // there are emissive voxels
 layout(constant_id = 4) const bool kReflects = true;   // false: pixels are only listed
+layout(constant_id = 5) const bool kAdds = true;       // false: sets the sums
 
 layout(local_size_x = kRadianceGroup) in;
 layout(push_constant, scalar) uniform Push
@@ -48,13 +49,17 @@ void main()
     uvec2 pixel = pixelOfNumber(exists ? number : 0u, size);
     Hit hit = seenHit(pixel);
     bool hits = !isMiss(hit);
+    Attribute stored = attributeAt(hits, hit);
     bool is_direct = exists && !hits;
-    if (kEmission)
+    if (kEmission && kFormat == kFormat8)
+        is_direct = is_direct || (exists && ((stored.color >> 24) & kAttributeEmissive) != 0u);
+    else if (kEmission)
         is_direct = is_direct || (exists && isEmitter(hits ? hit.index : 0u));
     uint place = appendTo(0u, kListMisses, is_direct);
     if (is_direct)
         params.direct.data[place] = number;
-    if (!kReflects || !exists || !hits || hitFace(hit) == kFaceInside)
+    bool reflects = kReflects && hits && hitFace(hit) != kFaceInside;
+    if (!exists || (kAdds && !reflects))
         return;
 
     vec3 offset = rayOffset(pixelOffset(pixel, size), params.camera.half_pixel_x, params.camera.half_pixel_y);
@@ -64,5 +69,9 @@ void main()
     uint normal = normalOfHit(hitFace(hit), direction);
     vec4 sum = lightBetweenFaces(hitCell(hit), normal, point, 0u);
     vec3 light = sum.rgb / max(sum.w, 1e-6) + lightOfBrick(hitCell(hit), normal, sum.w == 0.0).rgb;
-    addRadiance(params.sums, number, albedoOf(attributeAt(true, hit)) * light);
+    vec3 reflected = reflects ? albedoOf(stored) * light : vec3(0.0);
+    if (kAdds)
+        addRadiance(params.sums, number, reflected);
+    else
+        setRadiance(params.sums, number, reflected);
 }

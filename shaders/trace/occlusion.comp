@@ -62,8 +62,7 @@ void main()
     for (uint k = 0u; k < params.ray_count; ++k)
     {
         float u = (float(k) + 0.5) / float(params.ray_count);
-        float angle = kGoldenAngle * float(k);
-        vec3 toward = frame * vec3(sqrt(u) * vec2(cos(angle), sin(angle)), sqrt(1.0 - u));
+        vec3 toward = frame * cosineDirection(u, kGoldenAngle * float(k));
         Traversal ray = traverse(point.origin, inverseDirection(toward), kTraceTimeMin, end, vec2(0.0), uvec3(0u),
                                  max(iterations_left, 1u));
         float way = ray.face == kFaceInside ? kInsideShare : ray.t / max(end, kTraceTimeMin);

@@ -27,7 +27,7 @@ constexpr std::uint64_t kMapTexelsMax = std::uint64_t{1} << 25;
 
 constexpr std::uint32_t kSamplesMax = 1024; // of a call, so that a command buffer stays of a sensible size
 
-constexpr std::uint64_t kKeptFacesMax = std::uint64_t{1} << 31; // their slots have numbers of 32 bits
+constexpr std::uint64_t kKeptFacesMax = std::uint64_t{1} << 29; // of fewer than 2^30 slots
 
 // The irradiance over pi of a sun whose radiance is far below the largest float.
 constexpr double kSunMax = 1e30;

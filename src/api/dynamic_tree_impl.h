@@ -3,6 +3,7 @@
 
 #include "api/context_impl.h"
 #include "api/tree_impl.h"
+#include "core/base/new_version.h"
 #include "core/dynamic/dynamic_octree.h"
 #include "zvo/dynamic_tree.h"
 
@@ -80,7 +81,8 @@ struct ZVO_LOCAL DynamicTree::Impl
     std::shared_ptr<FrameState> made_in; // the frame in which the tree was made; null: known to be done
     std::vector<NewObject> new_objects;
     std::vector<UpdateStats> updates;
-    std::uint64_t edit_count = 0; // dabs, and strokes that went back or forth
+    std::uint64_t edit_count = 0;                // dabs, and strokes that went back or forth
+    const std::uint64_t identity = newVersion(); // no other tree's, nor any version's
 };
 
 /// Throws Error{Usage} for a dynamic tree that was lost with its frame, or moved from.

@@ -126,6 +126,7 @@ void KeptLight::Impl::report(Recorder::Impl& recorder)
         counts = {context.device, "kept light counts", kCounts, vk::MemoryKind::Readback};
     }
     recorder.graph.copy(cache->counters(), 0, counts, 0, counts.bytes());
+    recorder.graph.releaseToHost(); // what learn() reads
     m_reports.push_back({recorder.frame, std::move(counts)});
 }
 
@@ -175,8 +176,8 @@ void KeptLight::update(Recorder& recorder, const Tree& tree, Environment& enviro
     requireSame(light.context, impl.context);
     requireSame(light.context, outside.context);
     requireSame(light.context, recorder.impl().context);
-    light.update(recorder, impl.fixed, {&impl, impl.fixed.version, impl.fixed.grid, impl.fixed.version}, outside,
-                 camera, info);
+    light.update(recorder, impl.fixed, {impl.fixed.version, 0, impl.fixed.grid, impl.fixed.version}, outside, camera,
+                 info);
 }
 
 void KeptLight::update(Recorder& recorder, DynamicTree& tree, Environment& environment, const CameraInfo& camera,
@@ -189,7 +190,7 @@ void KeptLight::update(Recorder& recorder, DynamicTree& tree, Environment& envir
     requireSame(light.context, outside.context);
     impl.enter(recorder.impl());
     const DeviceTree& shown = impl.octree->tree();
-    light.update(recorder, shown, {&impl, impl.edit_count, shown.grid, shown.version}, outside, camera, info);
+    light.update(recorder, shown, {impl.identity, impl.edit_count, shown.grid, shown.version}, outside, camera, info);
 }
 
 std::uint64_t KeptLight::address() const

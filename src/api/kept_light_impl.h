@@ -21,7 +21,7 @@ struct ZVO_LOCAL KeptLight::Impl
     /// Which voxels the light is of.
     struct Shown
     {
-        const void* tree;      // the host's
+        std::uint64_t tree;    // the identity of a dynamic one, the version of another
         std::uint64_t changes; // of it, but for what moves: that has voxels of its own
         Grid grid;
         std::uint64_t version; // DeviceTree::version

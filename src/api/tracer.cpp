@@ -11,6 +11,7 @@
 #include "core/denoise/denoiser.h"
 #include "core/path/path_tracer.h"
 #include "core/present/image_target.h"
+#include "core/radiance/radiance_view.h"
 #include "core/scene/camera.h"
 #include "core/trace/trace_depth.h"
 #include "core/trace/tree_tracer.h"
@@ -87,12 +88,12 @@ struct PathPicture
 // What makes pictures of kept light.
 struct KeptPicture
 {
-    KeptPicture(Context::Impl& context, std::uint64_t pixel_count)
-        : sums(context.device, "kept picture", pixel_count), developer(context.device)
+    KeptPicture(Context::Impl& context, const TraceBuffers& buffers)
+        : view(context.device, buffers.width, buffers.height), developer(context.device)
     {
     }
 
-    vk::BufferOf<gpu::PixelSum> sums;
+    RadianceView view;
     Developer developer;
 };
 
@@ -200,7 +201,7 @@ struct ZVO_LOCAL Tracer::Impl
                   {
                       if (kept == nullptr)
                       {
-                          kept = std::make_unique<KeptPicture>(context, primaryRayCount(buffers));
+                          kept = std::make_unique<KeptPicture>(context, buffers);
                       }
                       if (frame && frame->is_lost)
                       {
@@ -210,10 +211,10 @@ struct ZVO_LOCAL Tracer::Impl
                       environment.enter(impl.frame);
                       environment.light.prepare(impl.graph);
                       tracer->tracePrimary(impl.graph, tree, camera, {});
-                      impl.graph.fill(kept->sums, 0);
-                      light.cache->view(impl.graph, tree, environment.light, camera, buffers, kept->sums);
-                      const SampledPicture shown = {kept->sums, buffers.width, buffers.height, 1};
-                      kept->developer.develop(impl.graph, shown, buffers.texels, exposure, tracer->image());
+                      kept->view.begin();
+                      kept->view.add(impl.graph, *light.cache, tree, environment.light, camera, buffers);
+                      kept->developer.develop(impl.graph, kept->view.picture(), buffers.texels, exposure,
+                                              tracer->image());
                       copyToImage(impl.graph, buffers, color);
                   });
     }

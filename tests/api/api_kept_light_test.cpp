@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Light that is kept on voxels, as a host has it in the course of its frames.
+#include "api/context_impl.h"
 #include "api_scene.h"
 #include "core/radiance/radiance_tracer.h"
+#include "core/radiance/radiance_view.h"
 #include "core/trace/tree_tracer.h"
 #include "expect_usage.h"
 #include "host_kernel.h"
@@ -109,15 +111,14 @@ public:
         Developer developer(test::device().device());
         tracer.resize(width, height);
         const std::uint64_t pixels = std::uint64_t{width} * height;
-        vk::BufferOf<gpu::PixelSum> sums(test::device().device(), "sums", pixels);
+        RadianceView shown(test::device().device(), width, height);
         vk::BufferOf<gpu::uint> image(test::device().device(), "picture", pixels);
         test::device().run(
             [&](vk::FrameGraph& graph)
             {
                 tracer.tracePrimary(graph, tree, camera, {});
-                graph.fill(sums, 0);
-                m_cache.view(graph, tree, m_sky, camera, tracer.buffers(), sums);
-                developer.develop(graph, {sums, width, height, 1}, TexelFormat::Rgba8, exposure, image);
+                shown.add(graph, m_cache, tree, m_sky, camera, tracer.buffers());
+                developer.develop(graph, shown.picture(), TexelFormat::Rgba8, exposure, image);
             });
         return test::device().download(image);
     }
@@ -340,6 +341,23 @@ TEST_F(ApiKeptLight, FramesInFlightAreThoseOfFramesThatAreWaitedFor)
     EXPECT_EQ(light.stats().faces, expected.faces.size());
 }
 
+// The host reads counts of a frame that is done, for which the fence alone does not suffice.
+TEST_F(ApiKeptLight, TheHostSeesItsCounts)
+{
+    const Tree tree = octree(4);
+    Environment environment = sky();
+    KeptLight light(m_host.context, kGrid);
+    m_host.frame(
+        [&](Recorder& recorder, VkCommandBuffer)
+        {
+            light.update(recorder, tree, environment, test::apiCamera());
+            const std::string& dump = recorder.impl().graph.dump();
+            const std::string last = dump.substr(dump.rfind('\n', dump.size() - 2) + 1);
+            EXPECT_TRUE(last.starts_with("barrier ") && last.ends_with(" -> host\n")) << last;
+        });
+    EXPECT_GT(light.stats().faces, 0U);
+}
+
 TEST_F(ApiKeptLight, BeginsAnewAfterALostFrameAndInAnotherGrid)
 {
     const Tree tree = octree();
@@ -399,6 +417,48 @@ TEST_F(ApiKeptLight, SeesWhatChangesByItself)
     EXPECT_LT(settledAfter(edit), 0.1);
     EXPECT_LT(settledAfter(undo), 0.1);
     EXPECT_GT(settledAfter([] {}), 0.2);
+}
+
+// A tree that takes the place of another one, in its object and perhaps in its memory, is another tree.
+TEST_F(ApiKeptLight, FollowsADynamicTreeThatIsMadeAnew)
+{
+    Scene bright = test::apiScene();
+    for (Material& material : bright.materials)
+    {
+        material.emission *= 16.0F;
+    }
+    const test::HostModel bright_model(bright);
+    const float scale = m_host.upload(bright_model.info()).emissionScale();
+    std::optional<DynamicTree> tree;
+    const auto make = [&](const test::HostModel& of)
+    {
+        ModelInfo info = of.info();
+        info.emission_scale = scale;
+        Tree fixed = m_host.build(m_host.upload(info), {.grid = test::apiGrid(3)});
+        m_host.frame([&](Recorder& recorder, VkCommandBuffer)
+                     { tree.emplace(recorder, std::move(fixed), DynamicTreeInfo{.emission_scale = scale}); });
+    };
+    Environment environment = sky();
+    const auto light_after = [&](KeptLight& light, std::uint32_t count)
+    {
+        frames(light, *tree, environment, count);
+        double sum = 0.0;
+        const Found found = this->found(light);
+        for (const auto& [name, face] : found.faces)
+        {
+            sum += face.radiance.g / static_cast<double>(found.faces.size());
+        }
+        return sum;
+    };
+    KeptLight light(m_host.context, kGrid);
+    make(model());
+    const double before = light_after(light, 300);
+    make(bright_model);
+    const double after = light_after(light, 32);
+    KeptLight fresh(m_host.context, kGrid);
+    const double expected = light_after(fresh, 100);
+    EXPECT_GT(expected, 2.0 * before);
+    EXPECT_GT(after, 0.5 * (before + expected)) << before << " before, " << expected << " in the end";
 }
 
 TEST_F(ApiKeptLight, MayGoWhileFramesUseIt)
@@ -465,7 +525,7 @@ TEST_F(ApiKeptLight, WhatIsNotValidIsRefused)
     { return [&, info] { const KeptLight light(m_host.context, info); }; };
     expectUsage(make({.width = 0}), "not 0");
     expectUsage(make({.height = 16385}), "not 16385");
-    expectUsage(make({.faces = (std::uint64_t{1} << 31) + 1}), "KeptLightInfo::faces is 2147483649");
+    expectUsage(make({.faces = (std::uint64_t{1} << 29) + 1}), "KeptLightInfo::faces is 536870913");
     const Tree tree = octree(4);
     Environment environment = sky();
     KeptLight light(m_host.context, kGrid);

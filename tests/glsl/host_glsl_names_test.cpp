@@ -253,5 +253,40 @@ TEST(HostGlslNames, OneFileIsAllThatIsIncluded)
     EXPECT_EQ(compile(kBegin + "#define ZVO_DETAIL\n#include \"zvo/trace.glsl\"\n" + kEnd), "");
 }
 
+// What cmake/BundleGlsl.cmake makes of a shader, in one line, or its message.
+std::string bundleOf(const std::string& text)
+{
+    const test::TempDir folder;
+    folder.write("entry.glsl", text);
+    const std::filesystem::path output = folder.path() / "bundle.glsl";
+    const std::filesystem::path log = folder.path() / "log";
+    const std::string command = std::string("\"") + ZVO_CMAKE + "\" -DROOT=\"" + folder.path().string() +
+                                "\" -DENTRY=entry.glsl -DOUTPUT=\"" + output.string() + "\" -P \"" + ZVO_BUNDLE +
+                                "\" > \"" + log.string() + "\" 2>&1";
+    const bool is_made = std::system(command.c_str()) == 0;
+    std::string result = readText(is_made ? output : log);
+    result = std::regex_replace(result, std::regex("//[^\n]*\n"), "");
+    return std::regex_replace(result, std::regex("\\s+"), " ");
+}
+
+TEST(HostGlslNames, ConditionsAreDecidedOrRefused)
+{
+    EXPECT_EQ(bundleOf("#ifdef BOUND\nint a;\n#else\nint b;\n#endif\n"), "int zvo_b; ");
+    EXPECT_EQ(bundleOf("#if defined(BOUND) && defined(ANY)\nint a;\n#else\nint b;\n#endif\n"), "int zvo_b; ");
+    EXPECT_EQ(bundleOf("#ifdef BOUND\nint a;\n#elif defined(FACES_BINDING)\nint b;\n#endif\nint c;\n"), "int zvo_c; ");
+    EXPECT_EQ(bundleOf("#if !defined(ANY) || ANY > 1\nint a;\n#endif\n"),
+              "#if !defined(ANY) || ANY > 1 int zvo_a; #endif ");
+    const auto expectRefused = [](const std::string& text, const std::string& message)
+    {
+        const std::string log = bundleOf(text + "\nint a;\n#endif\n");
+        EXPECT_NE(log.find("entry.glsl: cannot " + message), std::string::npos) << log;
+    };
+    expectRefused("#if !defined(BOUND)", "decide #if !defined(BOUND)");
+    expectRefused("#if defined(BOUND) || defined(ANY)", "decide #if defined(BOUND) || defined(ANY)");
+    expectRefused("#if defined(TRAVERSE_VARIABLES) && defined(ANY)", "decide #if defined(TRAVERSE_VARIABLES)");
+    expectRefused("#ifdef BOUND\n#elif defined(ANY)", "decide #elif defined(ANY)");
+    expectRefused("#ifdef ANY\n#elif defined(BOUND)", "leave out #elif defined(BOUND)");
+}
+
 } // namespace
 } // namespace zvo

@@ -193,12 +193,11 @@ Names keepLight(const DeviceTree& tree)
     {
         tracer.resize(9, height);
         const TraceCamera camera = traceCamera(view, tree.grid, height);
-        RadianceOptions options = {.faces = 100};
-        options.view = height == 10 ? KeptView::Faces : KeptView::Cones;
+        const KeptView kind = height == 10 ? KeptView::Faces : KeptView::Cones;
         for (std::uint32_t frame = 0; frame < 2; ++frame)
         {
             addNames(names, device().run([&](vk::FrameGraph& graph)
-                                         { tracer.addFrame(graph, tree, sky, camera, options); }));
+                                         { tracer.addFrame(graph, tree, sky, camera, {.faces = 100}, kind); }));
         }
     }
     return names;

@@ -2,6 +2,7 @@
 #include "demo/app/settings.h"
 
 #include "common/environment.h"
+#include "common/integrator.h"
 #include "common/progress.h"
 #include "common/view.h"
 #include "core/base/read_file.h"
@@ -61,9 +62,8 @@ void readViewState(const JsonCursor& object, ViewState& view)
                       "internal_scale", "present"});
     with(object, "view", [&](const JsonCursor& value) { view.view = readView(value); });
     with(object, "integrator",
-         [&](const JsonCursor& value) {
-             view.integrator = static_cast<Integrator>(value.oneOf({"primary", "path", "cached", "cones"}));
-         });
+         [&](const JsonCursor& value)
+         { view.integrator = static_cast<Integrator>(value.oneOf(cli::kIntegratorNames)); });
     with(object, "denoise", [&](const JsonCursor& value) { view.denoise = value.flag(); });
     with(object, "shadows", [&](const JsonCursor& value) { view.shadows = value.flag(); });
     with(object, "occlusion",

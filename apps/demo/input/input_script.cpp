@@ -24,7 +24,7 @@ constexpr const char* kInputSchema = "zvo.input/1";
 constexpr std::uint32_t kFrameMax = 1'000'000'000;
 constexpr std::uint32_t kEdgeMax = 16384; // of a window
 constexpr double kWheelMax = 1000;
-constexpr std::array<const char*, kMouseButtonCount> kButtonNames = {"left", "right", "middle"};
+constexpr std::array<std::string_view, kMouseButtonCount> kButtonNames = {"left", "right", "middle"};
 
 // The code point, if text is a single one.
 std::optional<char32_t> onlyCodePoint(std::string_view text)
@@ -114,7 +114,7 @@ InputEvent readKey(const JsonCursor& event, const JsonCursor& name)
 InputEvent readButton(const JsonCursor& event, const JsonCursor& name)
 {
     event.allowKeys({"frame", "button", "pressed", "modifiers"});
-    const std::size_t button = name.oneOf({kButtonNames[0], kButtonNames[1], kButtonNames[2]});
+    const std::size_t button = name.oneOf(kButtonNames);
     return MouseButtonEvent{static_cast<MouseButton>(button), event.at("pressed").flag(), readModifiers(event)};
 }
 

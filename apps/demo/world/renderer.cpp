@@ -98,9 +98,8 @@ void Renderer::traceLight(vk::FrameGraph& graph, const DeviceTree& tree, const T
             m_light->kept.cache().noteChange();
         }
         m_light->kept.beginPicture();
-        RadianceOptions kept;
-        kept.view = m_light->integrator == Integrator::Cones ? KeptView::Cones : KeptView::Faces;
-        m_light->kept.addFrame(graph, tree, m_light->sky, camera, kept);
+        m_light->kept.addFrame(graph, tree, m_light->sky, camera, {},
+                               m_light->integrator == Integrator::Cones ? KeptView::Cones : KeptView::Faces);
         m_light->developer.develop(graph, m_light->kept.picture(), TexelFormat::Rgba8, {.factor = view.exposure},
                                    m_light->image);
         return;

@@ -2,7 +2,6 @@
 #include "core/radiance/radiance_cache.h"
 
 #include "core/base/divide_up.h"
-#include "core/tree/tree_table.h"
 #include "vk/device.h"
 
 #include <algorithm>
@@ -32,7 +31,8 @@ constexpr double kSlotsOfFace = 1.5;
 
 std::uint64_t runsFor(double face_count)
 {
-    return static_cast<std::uint64_t>(face_count * kSlotsOfFace) / gpu::kFaceRun + 1;
+    const double slots = std::min(face_count * kSlotsOfFace, double{gpu::kFaceSlotsMax - gpu::kFaceRun});
+    return static_cast<std::uint64_t>(slots) / gpu::kFaceRun + 1;
 }
 
 // The pixels that radiance/want takes in a frame, at most: one of each 2x2.
@@ -71,14 +71,12 @@ std::uint64_t RadianceCache::Table::bytes() const
 
 RadianceCache::Frame::Frame(vk::Device& device, std::uint32_t frame_faces, std::uint32_t picture_width,
                             std::uint32_t picture_height)
-    : faces(frame_faces), width(picture_width), height(picture_height),
-      direct_lists(device, "radiance/direct_lists", gpu::kListElements)
+    : faces(frame_faces), width(picture_width), height(picture_height)
 {
     // The camera lists as many faces as pixels want one, and the paths of a frame as many as there are.
     const std::uint64_t wanted_max = faces + wantingPixels(width, height);
-    const std::uint64_t pixels = std::uint64_t{width} * height;
     const std::uint64_t brick_count = gpu::kBrickLevels * std::uint64_t{faces};
-    device.memory().require(PathBatch::bytesFor(faces, 1) + (2 * wanted_max + pixels) * sizeof(gpu::uint) +
+    device.memory().require(PathBatch::bytesFor(faces, 1) + 2 * wanted_max * sizeof(gpu::uint) +
                                 brick_count * (sizeof(gpu::uint) + sizeof(gpu::BrickSum)),
                             kPurpose);
     for (vk::BufferOf<gpu::uint>& slots : wanted)
@@ -88,13 +86,11 @@ RadianceCache::Frame::Frame(vk::Device& device, std::uint32_t frame_faces, std::
     batch = {device, faces, 1, gpu::kFirstBricks + gpu::kBrickLevels};
     bricks = {device, "radiance/bricks", brick_count};
     sums = {device, "radiance/brick_sums", brick_count};
-    direct = {device, "radiance/direct", pixels};
 }
 
 std::uint64_t RadianceCache::Frame::bytes() const
 {
-    return wanted[0].bytes() + wanted[1].bytes() + batch.bytes() + bricks.bytes() + sums.bytes() + direct.bytes() +
-           direct_lists.bytes();
+    return wanted[0].bytes() + wanted[1].bytes() + batch.bytes() + bricks.bytes() + sums.bytes();
 }
 
 std::uint64_t RadianceCache::bytes() const
@@ -261,6 +257,7 @@ void RadianceCache::update(vk::FrameGraph& graph, const DeviceTree& tree, Device
     clear(graph, work.frame);
     want(graph, work);
     tally(graph, work);
+    take(graph, work);
     begin(graph, work);
     for (std::uint32_t level = 2; level <= gpu::kBrickLevels; ++level)
     {
@@ -323,6 +320,22 @@ void RadianceCache::tally(vk::FrameGraph& graph, const Work& work)
                           divideUp(m_buffers->wanted[0].count(), gpu::kPathGroup));
 }
 
+void RadianceCache::take(vk::FrameGraph& graph, const Work& work)
+{
+    PathBatch& batch = m_buffers->batch;
+    vk::Pass pass = graph.addPass(gpu::radiance::Take{});
+    gpu::RadianceTakeParams params{};
+    params.faces = pass.read(m_table->faces);
+    params.states = pass.readWrite(m_table->states);
+    params.wanted = pass.read(m_buffers->wanted.at(work.frame % 2));
+    params.counters = pass.read(m_table->counters);
+    params.lists = pass.readWrite(batch.lists);
+    params.numbers = pass.readWrite(batch.numbers);
+    params.frame = work.frame;
+    pass.dispatchIndirect(batch.lists, listArgs(wantedList(work.frame), gpu::kListPaths), params,
+                          divideUp(m_buffers->wanted[0].count(), gpu::kPathGroup));
+}
+
 void RadianceCache::begin(vk::FrameGraph& graph, const Work& work)
 {
     PathBatch& batch = m_buffers->batch;
@@ -331,7 +344,6 @@ void RadianceCache::begin(vk::FrameGraph& graph, const Work& work)
     gpu::RadianceBeginParams params{};
     params.faces = pass.readWrite(m_table->faces);
     params.states = pass.readWrite(m_table->states);
-    params.wanted = pass.read(m_buffers->wanted.at(work.frame % 2));
     params.counters = pass.readWrite(m_table->counters);
     params.gives = pass.read(work.environment.gives());
     if (emits)
@@ -346,11 +358,10 @@ void RadianceCache::begin(vk::FrameGraph& graph, const Work& work)
     params.bricks = pass.readWrite(m_buffers->bricks);
     params.batch = static_cast<std::uint32_t>(batch.capacity());
     params.run_count = m_table->run_count;
-    params.frame = work.frame;
     params.sample_index = work.frame;
     params.seed = work.options.seed;
-    pass.dispatchIndirect(batch.lists, listArgs(wantedList(work.frame), gpu::kListPaths), params,
-                          divideUp(m_buffers->wanted[0].count(), gpu::kPathGroup));
+    pass.dispatchIndirect(batch.lists, listArgs(0, gpu::kListPaths), params,
+                          divideUp(m_buffers->faces, gpu::kPathGroup));
 }
 
 void RadianceCache::surround(vk::FrameGraph& graph, std::uint32_t level)
@@ -439,102 +450,6 @@ void RadianceCache::fold(vk::FrameGraph& graph, const Work& work, std::uint32_t 
     params.moved_window = work.moves ? windowOf(gpu::kMovedSamples) : params.window;
     pass.dispatchIndirect(batch.lists, listArgs(gpu::kFirstBricks + level - 1, gpu::kListPaths), params,
                           divideUp(m_buffers->faces, gpu::kPathGroup));
-}
-
-void RadianceCache::view(vk::FrameGraph& graph, const DeviceTree& tree, const DeviceEnvironment& environment,
-                         const TraceCamera& camera, const TraceBuffers& seen, vk::BufferOf<gpu::PixelSum>& sums,
-                         const RadianceOptions& options)
-{
-    const bool emits = hasEmission(tree);
-    Frame& buffers = *m_buffers;
-    const std::uint64_t pixels = std::uint64_t{seen.width} * seen.height;
-    if (buffers.direct.count() < pixels)
-    {
-        auto old = std::exchange(buffers.direct, vk::BufferOf<gpu::uint>(m_device, "radiance/direct", pixels));
-        if (m_deletion_queue != nullptr)
-        {
-            m_deletion_queue->keep(std::move(old));
-        }
-    }
-    graph.fill(buffers.direct_lists, 0);
-    {
-        vk::Pass pass = graph.addPass(gpu::radiance::View{.node_levels = tree.grid.nodeLevels(),
-                                                          .orthographic = camera.orthographic,
-                                                          .format = tree.attributeFormat(),
-                                                          .emission = emits,
-                                                          .reflects = options.view == KeptView::Faces});
-        gpu::RadianceViewParams params{};
-        params.faces = pass.read(m_table->faces);
-        params.hits = pass.read(seen.hits);
-        params.starts = pass.read(seen.starts);
-        params.attributes = readVoxelAttributes(pass, tree);
-        if (emits)
-        {
-            params.emission_words = pass.read(tree.emission_words);
-        }
-        params.sums = pass.readWrite(sums);
-        params.lists = pass.readWrite(buffers.direct_lists);
-        params.direct = pass.readWrite(buffers.direct);
-        params.camera = camera.rays;
-        params.width = seen.width;
-        params.height = seen.height;
-        params.run_count = m_table->run_count;
-        pass.dispatch(pixels, params);
-    }
-    if (options.view == KeptView::Cones)
-    {
-        traceCones(graph, tree, environment, camera, seen, sums, options.seed);
-    }
-    vk::Pass pass = graph.addPass(gpu::radiance::Direct{.orthographic = camera.orthographic, .emission = emits});
-    gpu::RadianceDirectParams params{};
-    params.hits = pass.read(seen.hits);
-    params.starts = pass.read(seen.starts);
-    if (emits)
-    {
-        params.tree = pass.read(m_lights.table());
-        pass.read(tree.emission_words);
-        pass.read(tree.emission);
-    }
-    params.environment = environment.read(pass);
-    params.sums = pass.readWrite(sums);
-    params.lists = pass.readWrite(buffers.direct_lists);
-    params.direct = pass.read(buffers.direct);
-    params.forward = camera.rays.forward;
-    params.half_pixel_x = camera.rays.half_pixel_x;
-    params.half_pixel_y = camera.rays.half_pixel_y;
-    params.width = seen.width;
-    params.height = seen.height;
-    pass.dispatchIndirect(buffers.direct_lists, listArgs(0, gpu::kListMisses), params,
-                          divideUp(pixels, gpu::kPathGroup));
-}
-
-// Records the passes that add what pixels reflect of the light through cones.
-void RadianceCache::traceCones(vk::FrameGraph& graph, const DeviceTree& tree, const DeviceEnvironment& environment,
-                               const TraceCamera& camera, const TraceBuffers& seen, vk::BufferOf<gpu::PixelSum>& sums,
-                               std::uint32_t seed)
-{
-    for (std::uint32_t cone = 0; cone < gpu::kDiffuseCones; ++cone)
-    {
-        vk::Pass pass = graph.addPass(gpu::radiance::Cones{.node_levels = tree.grid.nodeLevels(),
-                                                           .entries_per_word = tree.entriesPerWord(),
-                                                           .orthographic = camera.orthographic});
-        gpu::RadianceConesParams params{};
-        params.tree = readTree(pass, tree, m_lights.table());
-        readVoxelAttributes(pass, tree);
-        params.faces = pass.read(m_table->faces);
-        params.environment = environment.read(pass);
-        params.hits = pass.read(seen.hits);
-        params.starts = pass.read(seen.starts);
-        params.sums = pass.readWrite(sums);
-        params.camera = camera.rays;
-        params.width = seen.width;
-        params.height = seen.height;
-        params.run_count = m_table->run_count;
-        params.cone = cone;
-        params.frame = m_frame;
-        params.seed = seed;
-        pass.dispatch(std::uint64_t{seen.width} * seen.height, params);
-    }
 }
 
 } // namespace zvo

@@ -19,20 +19,12 @@
 namespace zvo
 {
 
-/// How a picture shows light that is kept.
-enum class KeptView : std::uint8_t
-{
-    Faces, ///< that of the faces that are seen
-    Cones, ///< what comes to them through six cones (C. Crassin et al., 2011), to compare with
-};
-
 /// Options of the light that is kept on voxels.
 struct RadianceOptions
 {
-    std::uint32_t faces = 1U << 15;             // the most that a frame takes: each takes a ray and a shadow ray
+    std::uint32_t faces = 1U << 14;             // the most that a frame takes: each takes a ray and a shadow ray
     std::uint32_t window = gpu::kKeptWeightMax; // the most samples that a mean counts
     std::uint32_t seed = 0;
-    KeptView view = KeptView::Faces;
     std::optional<TraceStack> stack = std::nullopt; // as in TraceOptions
 
     bool operator==(const RadianceOptions&) const = default;
@@ -67,14 +59,6 @@ public:
     void update(vk::FrameGraph& graph, const DeviceTree& tree, DeviceEnvironment& environment,
                 const TraceCamera& camera, const TraceBuffers& seen, const RadianceOptions& options);
 
-    /// Records the passes that add what the camera sees, of the light that is kept and directly, to the radiance of
-    /// sums, [pixels] in the order of shaders/path/path.h. seen: as in update(), of the last one or of another picture
-    /// of the same tree. Throws Error{Memory}, if it is larger. Cost: pixels; for KeptView::Cones, six cones and a ray
-    /// to the sun for each. They follow their rays in one dispatch each, however long.
-    void view(vk::FrameGraph& graph, const DeviceTree& tree, const DeviceEnvironment& environment,
-              const TraceCamera& camera, const TraceBuffers& seen, vk::BufferOf<gpu::PixelSum>& sums,
-              const RadianceOptions& options = {});
-
     /// Has means count few samples for some frames: because voxels have changed in another way than by what moves.
     /// Where the environment changes, update() sees that.
     void noteChange() { m_change_frame = m_frame; }
@@ -90,6 +74,9 @@ public:
 
     /// [slots] the table, in which free slots have a key of 0.
     [[nodiscard]] const vk::BufferOf<gpu::KeptFace>& faces() const { return m_table->faces; }
+
+    /// Where the buffers of the tree of the last update() are.
+    [[nodiscard]] const vk::BufferOf<gpu::TreeTable>& treeTable() const { return m_lights.table(); }
 
     /// Rays that were given up (TraceStatus::capped_rays), since all light was forgotten.
     [[nodiscard]] const vk::BufferOf<gpu::TraceStatus>& status() const { return m_status; }
@@ -121,10 +108,8 @@ private:
         std::uint32_t height;
         std::array<vk::BufferOf<gpu::uint>, 2> wanted; // slots of even and odd frames
         PathBatch batch;
-        vk::BufferOf<gpu::uint> bricks;               // [kBrickLevels][faces] slots of those that are listed
-        vk::BufferOf<gpu::BrickSum> sums;             // [kBrickLevels][faces] of them; 0 between frames
-        vk::BufferOf<gpu::uint> direct;               // [pixels] numbers of those that see light directly
-        vk::BufferOf<gpu::DispatchArgs> direct_lists; // [kListElements]
+        vk::BufferOf<gpu::uint> bricks;   // [kBrickLevels][faces] slots of those that are listed
+        vk::BufferOf<gpu::BrickSum> sums; // [kBrickLevels][faces] of them; 0 between frames
     };
 
     struct Work;
@@ -134,12 +119,10 @@ private:
     void clear(vk::FrameGraph& graph, std::uint32_t frame);
     void want(vk::FrameGraph& graph, const Work& work);
     void tally(vk::FrameGraph& graph, const Work& work);
+    void take(vk::FrameGraph& graph, const Work& work);
     void begin(vk::FrameGraph& graph, const Work& work);
     void gather(vk::FrameGraph& graph, const Work& work);
     void apply(vk::FrameGraph& graph, const Work& work);
-    void traceCones(vk::FrameGraph& graph, const DeviceTree& tree, const DeviceEnvironment& environment,
-                    const TraceCamera& camera, const TraceBuffers& seen, vk::BufferOf<gpu::PixelSum>& sums,
-                    std::uint32_t seed);
     void surround(vk::FrameGraph& graph, std::uint32_t level);
     void fold(vk::FrameGraph& graph, const Work& work, std::uint32_t level);
 

@@ -1,29 +1,20 @@
 // SPDX-License-Identifier: MIT
 #include "core/radiance/radiance_tracer.h"
 
-#include <cmath>
 #include <utility>
 
 namespace zvo
 {
 
-glm::vec2 pointOfPixel(std::uint32_t frame)
-{
-    constexpr glm::dvec2 kSteps = {0.7548776662466927, 0.5698402909980532};
-    const glm::dvec2 point = glm::fract(0.5 + static_cast<double>(frame) * kSteps) - 0.5;
-    return point;
-}
-
 void RadianceTracer::resize(std::uint32_t width, std::uint32_t height)
 {
-    if (m_sums != nullptr && m_tracer.buffers().width == width && m_tracer.buffers().height == height)
+    if (m_view != nullptr && m_tracer.buffers().width == width && m_tracer.buffers().height == height)
     {
         return;
     }
-    auto sums = std::make_unique<vk::BufferOf<gpu::PixelSum>>(m_device, "radiance/sums", std::uint64_t{width} * height);
+    auto view = std::make_unique<RadianceView>(m_device, width, height);
     m_tracer.resize(width, height);
-    vk::replace(m_deletion_queue, m_sums, std::move(sums));
-    beginPicture();
+    vk::replace(m_deletion_queue, m_view, std::move(view));
 }
 
 void RadianceTracer::reserve(const DeviceTree& tree, const RadianceOptions& options)
@@ -39,21 +30,29 @@ void RadianceTracer::forget()
     beginPicture();
 }
 
-void RadianceTracer::addFrame(vk::FrameGraph& graph, const DeviceTree& tree, DeviceEnvironment& environment,
-                              const TraceCamera& camera, const RadianceOptions& options)
+// Records the camera's rays, and what they and the faces that they hit bring.
+void RadianceTracer::update(vk::FrameGraph& graph, const DeviceTree& tree, DeviceEnvironment& environment,
+                            const TraceCamera& camera, const RadianceOptions& options)
 {
-    const std::uint32_t frame = std::exchange(m_frame_count, 0); // should anything below throw
-    if (frame == 0)
-    {
-        graph.fill(*m_sums, 0);
-    }
-    const TraceCamera through = shifted(camera, pointOfPixel(frame));
     TraceOptions trace;
     trace.stack = options.stack;
-    m_tracer.tracePrimary(graph, tree, through, trace);
-    m_cache.update(graph, tree, environment, through, m_tracer.buffers(), options);
-    m_cache.view(graph, tree, environment, through, m_tracer.buffers(), *m_sums, options);
-    m_frame_count = frame + 1;
+    m_tracer.tracePrimary(graph, tree, camera, trace);
+    m_cache.update(graph, tree, environment, camera, m_tracer.buffers(), options);
+}
+
+void RadianceTracer::addFrame(vk::FrameGraph& graph, const DeviceTree& tree, DeviceEnvironment& environment,
+                              const TraceCamera& camera, const RadianceOptions& options, KeptView kind)
+{
+    const TraceCamera through = shifted(camera, pointOfPixel(m_view->frameCount()));
+    update(graph, tree, environment, through, options);
+    m_view->add(graph, m_cache, tree, environment, through, m_tracer.buffers(), kind, options.seed);
+}
+
+void RadianceTracer::settle(vk::FrameGraph& graph, const DeviceTree& tree, DeviceEnvironment& environment,
+                            const TraceCamera& camera, const RadianceOptions& options)
+{
+    beginPicture();
+    update(graph, tree, environment, shifted(camera, pointOfPixel(m_cache.frameCount())), options);
 }
 
 } // namespace zvo

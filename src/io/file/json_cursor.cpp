@@ -257,9 +257,14 @@ std::string JsonCursor::text() const
 
 std::size_t JsonCursor::oneOf(std::initializer_list<std::string_view> names) const
 {
-    const auto* const name = m_value->is_string()
-                                 ? std::find(names.begin(), names.end(), m_value->get_ref<const std::string&>())
-                                 : names.end();
+    return oneOf(std::span(names));
+}
+
+std::size_t JsonCursor::oneOf(std::span<const std::string_view> names) const
+{
+    const auto name = m_value->is_string()
+                          ? std::find(names.begin(), names.end(), m_value->get_ref<const std::string&>())
+                          : names.end();
     if (name == names.end())
     {
         throw mismatch(fmt::format("one of {}", fmt::join(names, ", ")));

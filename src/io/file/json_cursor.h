@@ -10,6 +10,7 @@
 #include <initializer_list>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -56,6 +57,7 @@ public:
     [[nodiscard]] bool flag() const;
     [[nodiscard]] std::string text() const;
     /// The index of the value, a text, among names.
+    [[nodiscard]] std::size_t oneOf(std::span<const std::string_view> names) const;
     [[nodiscard]] std::size_t oneOf(std::initializer_list<std::string_view> names) const;
     /// A number of at most kJsonNumberMax in size.
     [[nodiscard]] double number() const;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Rays through a tree, and what they hit: a part of host/trace.glsl, which says how it is used.
+// Rays through any tree by its table, and what they hit: a part of host/trace.glsl, which says how it is used.
 #include "lib/attribute_formats.glsl"
 #include "lib/camera.glsl"
 #include "lib/color.glsl"

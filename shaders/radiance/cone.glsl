@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Light through a cone (C. Crassin et al., Interactive Indirect Illumination Using Voxel Cone Tracing, 2011). The
-// includer includes host/tree.glsl with ZVO_DETAIL, and radiance/light_of_brick.glsl, before.
+// includer includes trace/any_tree.glsl with ZVO_DETAIL, and radiance/light_of_brick.glsl, before.
 
 const uint kConeSteps = 32u;             // nodes that a cone meets or leaves, at most
 const float kConeStep = 0.01;            // out of a node, in voxels

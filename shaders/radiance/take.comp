@@ -1,0 +1,37 @@
+#version 460
+// SPDX-License-Identifier: MIT
+// Takes faces off the frame's list, and lists those that the frame samples.
+#extension GL_GOOGLE_include_directive : require
+#include "radiance/radiance.h"
+#include "lib/bound.glsl"
+#include "lib/dispatch.glsl"
+#include "lib/sobol.glsl"
+
+layout(local_size_x = kRadianceGroup) in;
+layout(push_constant, scalar) uniform Push
+{
+    RadianceTakeParams params;
+};
+
+#define FACES_BINDING 0
+#define STATES_BINDING 1
+#include "path/lists.glsl"
+#include "radiance/face_key.glsl"
+#include "radiance/kept_light.glsl"
+#include "radiance/rank.glsl"
+
+void main()
+{
+    uint i = threadIndex();
+    uint length = listLength(kWantedEven + (params.frame & 1u), kListPaths);
+    uint slot = params.wanted.data[min(i, length - 1u)];
+    uint mark = loadFaceState(slot).mark;
+    uint rank = rankOfFace(loadFace(slot), mark, params.frame);
+    bool is_taken = i < length && rank < params.counters.data[0].rank_limit;
+    uint path = appendTo(0u, kListPaths, is_taken);
+    if (is_taken)
+        params.numbers.data[path] = slot;
+    if (i < length)
+        params.states.data[slot].mark =
+            (mark & ((kMarkMovedFrames << kMarkMovedShift) | kFaceMoved)) | (params.frame & kMarkFrames);
+}
