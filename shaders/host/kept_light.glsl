@@ -219,9 +219,10 @@ vec4 zvo_gatherIrradiance(KeptLightTable_ConstPtr light, TreeTable_ConstPtr tree
 #include "radiance/cone.glsl"
 
 // The light that comes to a point through a cone, and from outside of the grid through the share of it that has met
-// nothing within a reach in world units: the mean over the cone, of nodes as wide as it, which keep light as bricks. It
-// has no sun. direction: of the axis, of any length. aperture: radians from rim to rim, less than pi. seed: of the rays
-// that find how much of a node emits, of which the mean over seeds is right. w: that share.
+// nothing within a reach in world units: about the mean over the cone, of nodes along its axis that are up to half as
+// wide as it, and keep light as bricks. It has no sun. Nodes count that begin within the reach. direction: of the axis,
+// of any length. aperture: radians from rim to rim, less than pi. seed: of the rays that find how much of a node emits,
+// of which the mean over seeds is right. w: that share. Where no light is kept at all, 0.
 vec4 zvo_cone(KeptLightTable_ConstPtr light, TreeTable_ConstPtr tree, vec3 origin, vec3 direction, float aperture,
               float reach, uint seed)
 {

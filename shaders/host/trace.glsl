@@ -27,6 +27,7 @@
 //   vec4 zvo_gatherIrradiance(light, tree, position, normal, rays, seed)     light that arrives, by rays
 //   vec3 zvo_outside(light, direction)                                light from outside of the grid
 //   float zvo_occlusion(tree, position, normal, rays, reach, seed)    the share of rays that meet nothing
+//   vec4 zvo_cone(light, tree, origin, direction, aperture, reach, seed)     light through a cone, with ZVO_DETAIL
 //
 // Unit space, in which the root's cube is [1, 2)^3: nothing is rounded on the way to the traversal. Hits are those of
 // zvo's own kernels, bit for bit, and hits of theirs may be given to the functions above.
@@ -45,7 +46,8 @@
 //                         registers for so many levels, not for the most that there can be. Other trees are traced
 //                         wrongly.
 //   ZVO_ENTRIES_PER_WORD  zvo_TreeTable::entries_per_word of all trees, likewise; 0 leaves out what only DAGs need.
-//   ZVO_DETAIL            rays may stop at nodes that are small enough: zvo_traceDetail, zvo_traceRayDetail.
+//   ZVO_DETAIL            rays may stop at nodes that are small enough: zvo_traceDetail, zvo_traceRayDetail,
+//                         zvo_cone.
 //   ZVO_ITERATIONS_MAX    iterations of a ray in one call, 40,000 by default: enough for any ray through 8192^3 voxels.
 //
 // Cost: of a ray, its iterations, which lead far where there is nothing; of a hit in a DAG, two or three loads a level
