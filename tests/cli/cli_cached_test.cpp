@@ -71,6 +71,50 @@ TEST_F(CliCached, EachOptionChangesThePicture)
     EXPECT_EQ(picture({"--structure", "svdag"}), plain) << "a DAG has its light in the same places";
 }
 
+// Cones show the same light in another way, the same in every run and of every structure.
+TEST_F(CliCached, ConesShowTheLight)
+{
+    const auto cones = [&](const std::string& file, const std::vector<std::string>& more)
+    {
+        std::vector<std::string> arguments = {"render", file,    "-f", "--size", "40x30",    "--integrator",
+                                              "cones",  "--spp", "2",  "-o",     "cones.png"};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        const Outcome outcome = runZvo(m_dir.path(), arguments);
+        EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+        return contentOf(m_dir.path() / "cones.png");
+    };
+    const std::vector<std::string> usual = {"--resolution", "16", "--settle", "12"};
+    const std::string plain = cones("cube.glb", usual);
+    EXPECT_TRUE(picture({}) != plain);
+    EXPECT_TRUE(cones("cube.glb", usual) == plain);
+    const std::vector<std::vector<std::string>> others = {
+        {"--settle", "12", "--seed", "1"}, {"--settle", "0"}, {"--settle", "12", "--sun", "1,1,1"}};
+    for (std::vector<std::string> more : others)
+    {
+        const std::string option = more[more.size() - 2];
+        more.insert(more.end(), {"--resolution", "16"});
+        EXPECT_TRUE(cones("cube.glb", more) != plain) << option;
+    }
+    EXPECT_TRUE(cones("cube.glb", {"--resolution", "16", "--settle", "12", "--structure", "svdag"}) == plain);
+    for (const std::string format : {"4", "block"})
+    {
+        std::vector<std::string> pictures;
+        for (const char* structure : {"svo", "svdag"})
+        {
+            const Outcome built = runZvo(m_dir.path(), {"build", "cube.glb", "-f", "-o", "cube.zvo", "--resolution",
+                                                        "16", "--structure", structure, "--attributes", format});
+            if (structure == std::string("svo") && built.exit_code != 0)
+            {
+                continue; // packed formats are of DAGs
+            }
+            ASSERT_EQ(built.exit_code, 0) << built.err;
+            pictures.push_back(cones("cube.zvo", {"--settle", "12"}));
+            EXPECT_TRUE(pictures.back() == pictures.front());
+        }
+        EXPECT_FALSE(pictures.empty());
+    }
+}
+
 // A picture of radiance, and what the report says.
 TEST_F(CliCached, ReportsWhatIsKept)
 {
@@ -127,16 +171,25 @@ TEST_F(CliCached, IsMeasuredBesidePaths)
     const nlohmann::json report = nlohmann::json::parse(outcome.out);
     EXPECT_EQ(report["schema"], "zvo.bench_kept/1");
     const nlohmann::json& rows = report["rows"];
-    ASSERT_EQ(rows.size(), 7U);
+    ASSERT_EQ(rows.size(), 10U);
     EXPECT_EQ(rows[0]["integrator"], "primary");
     EXPECT_EQ(rows[3]["integrator"], "path");
-    EXPECT_EQ(rows[6]["integrator"], "cached");
-    EXPECT_LT(rows[6]["relative_error"], rows[1]["relative_error"]);
-    EXPECT_GT(rows[6]["paths_of_error"], 1.0);
-    EXPECT_GT(rows[6]["flip"], 0.0);
-    EXPECT_LT(rows[6]["flip"], 1.0);
-    EXPECT_GT(rows[6]["reference_error"], 0.0);
-    EXPECT_LT(rows[6]["reference_error"], rows[3]["relative_error"]) << "of 64 paths, beside 16";
+    for (const std::size_t i : {4U, 6U, 8U})
+    {
+        EXPECT_EQ(rows[i]["integrator"], "cached");
+        EXPECT_EQ(rows[i + 1]["integrator"], "cones");
+        EXPECT_EQ(rows[i]["samples"], rows[i + 1]["samples"]);
+        EXPECT_EQ(rows[i]["bytes_of_voxel"], rows[i + 1]["bytes_of_voxel"]);
+        EXPECT_LT(rows[i + 1]["relative_error"], 0.1) << "nothing but the sky and the sun lights a cube";
+        EXPECT_GT(rows[i + 1]["flip"], 0.0);
+        EXPECT_GT(rows[i + 1]["frame_ms"], 0.0);
+    }
+    EXPECT_LT(rows[8]["relative_error"], rows[1]["relative_error"]);
+    EXPECT_GT(rows[8]["paths_of_error"], 1.0);
+    EXPECT_GT(rows[8]["flip"], 0.0);
+    EXPECT_LT(rows[8]["flip"], 1.0);
+    EXPECT_GT(rows[8]["reference_error"], 0.0);
+    EXPECT_LT(rows[8]["reference_error"], rows[3]["relative_error"]) << "of 64 paths, beside 16";
     expectErrorLine(runZvo(m_dir.path(), {"bench", "--kept", "--denoise", "cube.glb"}), 2, {"--kept"});
     expectErrorLine(runZvo(m_dir.path(), {"bench", "--reference", "4", "cube.glb"}), 2, {"--reference", "--kept"});
 }
@@ -215,7 +268,7 @@ TEST_F(CliCached, SponzaIsMeasuredInside)
     };
     const nlohmann::json inside = rows({"--camera=-10,1.5,-0.4,5,2.5,-0.4,75"});
     const nlohmann::json usual = rows({});
-    ASSERT_EQ(usual.size(), 7U) << "by day alone";
+    ASSERT_EQ(usual.size(), 10U) << "by day alone";
     EXPECT_EQ(usual[1]["relative_error"], inside[1]["relative_error"]);
 }
 
@@ -225,6 +278,10 @@ TEST_F(CliCached, ErrorsNameTheOption)
     expectErrorLine(render({"--denoise", "-o", "x.png"}), 2, {"--denoise", "--integrator path"});
     expectErrorLine(render({"--view", "normal", "-o", "x.png"}), 2, {"--view", "--integrator cached"});
     expectErrorLine(render({"--rays", "0", "-o", "x.png"}), 2, {"--rays"});
+    const std::vector<std::string> cones = {"render", "cube.glb", "-o", "x.png", "--integrator", "cones", "--denoise"};
+    expectErrorLine(runZvo(m_dir.path(), cones), 2, {"--denoise", "--integrator path"});
+    const std::vector<std::string> other = {"render", "cube.glb", "-o", "x.png", "--integrator", "cone"};
+    expectErrorLine(runZvo(m_dir.path(), other), 2, {"--integrator", "cached", "cones"});
     const std::vector<std::string> path = {"render", "cube.glb", "-o", "x.png", "--integrator", "path"};
     for (const char* option : {"--settle", "--rays"})
     {

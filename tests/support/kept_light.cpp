@@ -44,12 +44,12 @@ std::map<FaceName, FaceLight> facesOf(std::span<const gpu::KeptFace> table, std:
 }
 
 void runFrames(RadianceTracer& tracer, const DeviceTree& tree, DeviceEnvironment& environment, const ViewCamera& view,
-               std::uint32_t count, const RadianceOptions& options)
+               std::uint32_t count, const RadianceOptions& options, KeptView kind)
 {
     const TraceCamera camera = traceCamera(view, tree.grid, tracer.buffers().height);
     for (std::uint32_t i = 0; i < count; ++i)
     {
-        device().run([&](vk::FrameGraph& graph) { tracer.addFrame(graph, tree, environment, camera, options); });
+        device().run([&](vk::FrameGraph& graph) { tracer.addFrame(graph, tree, environment, camera, options, kind); });
     }
 }
 

@@ -42,7 +42,7 @@ std::map<FaceName, FaceLight> facesOf(RadianceCache& cache, std::uint32_t level 
 
 /// Runs frames of a tracer, which has a size.
 void runFrames(RadianceTracer& tracer, const DeviceTree& tree, DeviceEnvironment& environment, const ViewCamera& view,
-               std::uint32_t count, const RadianceOptions& options);
+               std::uint32_t count, const RadianceOptions& options, KeptView kind = KeptView::Faces);
 
 /// The mean of a tracer's picture. Expects that no ray was given up.
 PathPicture pictureOf(RadianceTracer& tracer);

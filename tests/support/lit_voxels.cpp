@@ -126,8 +126,10 @@ DeviceTree litTree(vk::HeadlessDevice& device, std::vector<LitVoxel> voxels, std
     }
     if (of_nodes)
     {
-        const std::vector<gpu::Attribute> attributes_of_nodes = nodeAttributes(tree, device.download(tree.nodes), voxels);
-        tree.node_attributes = device.makeBuffer("node attributes", std::span<const gpu::Attribute>(attributes_of_nodes));
+        const std::vector<gpu::Attribute> attributes_of_nodes =
+            nodeAttributes(tree, device.download(tree.nodes), voxels);
+        tree.node_attributes =
+            device.makeBuffer("node attributes", std::span<const gpu::Attribute>(attributes_of_nodes));
     }
     return tree;
 }

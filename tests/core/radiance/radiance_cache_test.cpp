@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <vector>
 
@@ -51,12 +52,12 @@ ViewCamera outside()
 // The picture after so many frames, of the last ones.
 PathPicture settledPicture(RadianceTracer& tracer, const DeviceTree& tree, DeviceEnvironment& environment,
                            const ViewCamera& view, std::uint32_t edge, std::uint32_t settle, std::uint32_t frames,
-                           const RadianceOptions& options = {})
+                           const RadianceOptions& options = {}, KeptView kind = KeptView::Faces)
 {
     tracer.resize(edge, edge);
     runFrames(tracer, tree, environment, view, settle, options);
     tracer.beginPicture();
-    runFrames(tracer, tree, environment, view, frames, options);
+    runFrames(tracer, tree, environment, view, frames, options, kind);
     return pictureOf(tracer);
 }
 
@@ -227,6 +228,49 @@ TEST(RadiancePictures, ShowNewFacesLit)
     runFrames(tracer, hall.tree, hall.dark, near_wall, 1, {.faces = 1});
     const PathPicture picture = pictureOf(tracer);
     EXPECT_LT(relativeError(picture, truth), 0.25);
+}
+
+// Cones are further from path tracing than the faces that keep the light which they show, but near.
+TEST(RadiancePictures, ByConesAreNearThoseOfPathTracing)
+{
+    Hall hall;
+    const PathPicture truth = pictureOf(hall.tree, hall.dark, hall.view, 40, 512, {.bounces = 10});
+    std::array<double, 2> errors{};
+    for (const KeptView kind : {KeptView::Faces, KeptView::Cones})
+    {
+        RadianceTracer tracer(device().device());
+        const PathPicture picture = settledPicture(tracer, hall.tree, hall.dark, hall.view, 40, 128, 64, {}, kind);
+        errors[static_cast<std::size_t>(kind)] = relativeError(picture, truth);
+        EXPECT_NEAR(picture.luminance, truth.luminance, 0.06 * truth.luminance);
+    }
+    EXPECT_LT(errors[1], 0.35);
+    EXPECT_LT(errors[0], 0.1 * errors[1]);
+}
+
+// Nothing that cones show is their own floor's, or counted twice: a glowing room has the light of all bounces. Some of
+// it is lost through walls of one voxel.
+TEST(RadiancePictures, ByConesHaveTheLightOfAllBounces)
+{
+    LitVoxel wall = grey();
+    wall.emission = glm::vec3(0.5F);
+    const double expected = 0.5 / (1.0 - test::albedoOf(wall).r);
+    for (const std::uint32_t thickness : {1U, 4U})
+    {
+        std::vector<LitVoxel> voxels;
+        test::addBox(voxels, glm::uvec3(0), glm::uvec3(32), wall);
+        std::erase_if(voxels,
+                      [&](const LitVoxel& v)
+                      {
+                          return glm::all(glm::greaterThanEqual(v.cell, glm::uvec3(thickness))) &&
+                                 glm::all(glm::lessThan(v.cell, glm::uvec3(32 - thickness)));
+                      });
+        const DeviceTree tree = test::litTree(device(), voxels, 5);
+        DeviceEnvironment dark = constantSky(glm::vec3(0.0F));
+        const ViewCamera inside = ViewCamera::lookAt({16.2, 16.1, 16.3}, {1.0, 2.0, 3.0}, 1.0);
+        RadianceTracer tracer(device().device());
+        const PathPicture picture = settledPicture(tracer, tree, dark, inside, 40, 128, 16, {}, KeptView::Cones);
+        EXPECT_NEAR(picture.luminance, expected, (thickness == 1 ? 0.05 : 0.01) * expected);
+    }
 }
 
 // The light is a mean over frames: it does not depend on the order of threads.

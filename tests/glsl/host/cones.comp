@@ -58,7 +58,7 @@ void main()
     Found found = Found(zvo_cone(kept, tree, at.origin, at.direction, at.aperture, at.reach, 1u), vec4(0.0), vec4(0.0));
     for (uint k = 0u; k < rays; ++k)
     {
-        found.mean += zvo_cone(kept, tree, at.origin, at.direction, at.aperture, at.reach, k) / float(rays);
+        found.mean += zvo_cone(kept, tree, at.origin, at.direction, at.aperture, at.reach, i * rays + k) / float(rays);
         vec3 direction = directionIn(at, k);
         zvo_Hit hit = zvo_trace(tree, at.origin, direction, 0.0, at.reach);
         vec4 met = zvo_keptRadiance(kept, tree, hit, at.origin, direction);
