@@ -245,8 +245,7 @@ private:
     {
         const TraceCamera through = shifted(m_camera, pointOfPixel(cones.frameCount()));
         return sumMs(m_device.run(
-            [&](vk::FrameGraph& graph)
-            {
+            [&](vk::FrameGraph& graph) {
                 cones.add(graph, tracer.cache(), m_scene.tree, m_scene.light, through, tracer.buffers(),
                           KeptView::Cones);
             }));
