@@ -71,6 +71,22 @@ TEST_F(CliCached, EachOptionChangesThePicture)
     EXPECT_EQ(picture({"--structure", "svdag"}), plain) << "a DAG has its light in the same places";
 }
 
+// Cones read the light that is kept, of an octree and of a DAG alike.
+TEST_F(CliCached, IsSeenThroughConesToo)
+{
+    const auto pictureBy = [&](const char* integrator, const char* structure)
+    {
+        const Outcome outcome = runZvo(m_dir.path(), {"render", "cube.glb", "-f", "--size", "40x30", "--resolution",
+                                                      "16", "--integrator", integrator, "--structure", structure,
+                                                      "--settle", "4", "--spp", "2", "-o", "picture.png"});
+        EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+        return contentOf(m_dir.path() / "picture.png");
+    };
+    const std::string cones = pictureBy("cones", "svo");
+    EXPECT_TRUE(pictureBy("cones", "svdag") == cones);
+    EXPECT_TRUE(pictureBy("cached", "svo") != cones);
+}
+
 // A picture of radiance, and what the report says.
 TEST_F(CliCached, ReportsWhatIsKept)
 {

@@ -182,7 +182,7 @@ Names tracePaths(const DeviceTree& tree)
     return names;
 }
 
-// Keeps light on the voxels of a tree, in pictures of two sizes.
+// Keeps light on the voxels of a tree, in pictures of two sizes, of which the second is seen through cones.
 Names keepLight(const DeviceTree& tree)
 {
     DeviceEnvironment sky(device().device());
@@ -193,10 +193,11 @@ Names keepLight(const DeviceTree& tree)
     {
         tracer.resize(9, height);
         const TraceCamera camera = traceCamera(view, tree.grid, height);
+        const KeptView kind = height == 10 ? KeptView::Faces : KeptView::Cones;
         for (std::uint32_t frame = 0; frame < 2; ++frame)
         {
             addNames(names, device().run([&](vk::FrameGraph& graph)
-                                         { tracer.addFrame(graph, tree, sky, camera, {.faces = 100}); }));
+                                         { tracer.addFrame(graph, tree, sky, camera, {.faces = 100}, kind); }));
         }
     }
     return names;
@@ -584,7 +585,9 @@ TEST(EveryKernel, RunsOnASmallScene)
             names.merge(traceForHosts(built.octree));
             names.merge(tracePaths(built.octree));
             names.merge(keepLight(built.octree));
-            names.merge(tracePictures(test::svdagOf(device(), built.octree)));
+            const DeviceTree dag = test::svdagOf(device(), built.octree);
+            names.merge(tracePictures(dag));
+            names.merge(keepLight(dag));
             const Grid deep{.origin = grid.origin, .voxel_size = grid.voxel_size, .depth = kDepthOfRankSums};
             names.merge(mergeObjects(scene, deep, c.coverage, true));
             names.merge(
