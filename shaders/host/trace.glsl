@@ -46,8 +46,7 @@
 //                         registers for so many levels, not for the most that there can be. Other trees are traced
 //                         wrongly.
 //   ZVO_ENTRIES_PER_WORD  zvo_TreeTable::entries_per_word of all trees, likewise; 0 leaves out what only DAGs need.
-//   ZVO_DETAIL            rays may stop at nodes that are small enough: zvo_traceDetail, zvo_traceRayDetail,
-//                         zvo_cone.
+//   ZVO_DETAIL            rays may stop at nodes that are small enough: zvo_traceDetail, zvo_traceRayDetail, zvo_cone.
 //   ZVO_ITERATIONS_MAX    iterations of a ray in one call, 40,000 by default: enough for any ray through 8192^3 voxels.
 //
 // Cost: of a ray, its iterations, which lead far where there is nothing; of a hit in a DAG, two or three loads a level

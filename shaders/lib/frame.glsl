@@ -10,8 +10,8 @@ mat3 frameAround(vec3 n)
     return mat3(vec3(1.0 + sign * n.x * n.x * a, sign * b, -sign * n.x), vec3(b, sign + n.y * n.y * a, -n.y), n);
 }
 
-// A direction in such a frame, to the side of its last axis: of even u in [0, 1) and even angles about the axis, they are
-// spread by the cosine with it, which is z.
+// A direction in such a frame, to the side of its last axis: of even u in [0, 1) and even angles about the axis, they
+// are spread by the cosine with it, which is z.
 vec3 cosineDirection(float u, float angle)
 {
     return vec3(sqrt(u) * vec2(cos(angle), sin(angle)), sqrt(1.0 - u));

@@ -98,6 +98,23 @@ TEST(RadianceFurnace, AWhiteCubeCannotBeSeen)
     }
 }
 
+// It looks nearly like the sky through cones, too.
+TEST(RadianceFurnace, AWhiteCubeCanHardlyBeSeenThroughCones)
+{
+    std::vector<LitVoxel> voxels;
+    test::addBox(voxels, {2, 2, 2}, {6, 6, 6}, white());
+    const DeviceTree tree = test::litTree(device(), voxels, 3);
+    DeviceEnvironment sky = constantSky({0.5F, 1.0F, 2.0F});
+    RadianceTracer tracer(device().device());
+    tracer.resize(64, 64);
+    runFrames(tracer, tree, sky, outside(), 64, {});
+    tracer.beginPicture();
+    const TraceCamera camera = traceCamera(outside(), tree.grid, 64);
+    device().run([&](vk::FrameGraph& graph) { tracer.addFrame(graph, tree, sky, camera, {}, KeptView::Cones); });
+    const PathPicture picture = pictureOf(tracer);
+    EXPECT_NEAR(picture.luminance, test::luminanceOf({0.5, 1.0, 2.0}), 0.02);
+}
+
 // So does a body with holes, by many bounces.
 TEST(RadianceFurnace, AWhiteBowlCannotBeSeen)
 {
