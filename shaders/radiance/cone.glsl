@@ -56,10 +56,14 @@ vec3 coverageOfNode(TreeTable_ConstPtr tree, uvec3 cell, uint level)
 
 // Light of the faces of a node, or of a voxel, that are towards where a ray comes from, by the squares of the
 // components of its direction (length 1): of white ones. Where there are none, that of the least brick around it.
-vec3 lightAgainst(uvec3 cell, uint level, vec3 direction)
+// voxel: the cell of one where the ray enters it.
+vec3 lightAgainst(uvec3 cell, uint level, uvec3 voxel, vec3 direction)
 {
     uint known_level = min(level, kBrickLevels);
-    uvec3 known_cell = cell << (2u * (level - known_level)); // far nodes are larger than bricks
+    // Far nodes are larger than bricks.
+    uvec3 first = cell << (2u * (level - known_level));
+    uvec3 last = first + (1u << (2u * (level - known_level))) - 1u;
+    uvec3 known_cell = clamp(voxel >> (2u * known_level), first, last);
     vec4 sum = vec4(0.0);
     for (uint up = known_level; up <= kBrickLevels && sum.w == 0.0; ++up)
         for (uint axis = 0u; axis < 3u; ++axis)
@@ -155,10 +159,13 @@ vec4 lightThroughCone(TreeTable_ConstPtr tree, vec3 origin, vec3 direction, floa
             vec3 emission = emissionInNode(tree, hit, surface, origin, hashPair(seed, i));
             surface.emission = emission / max(coverage, 1.0 / 16.0);
         }
-        vec3 light = surface.emission + surface.base_color * lightAgainst(surface.cell, level, direction);
+        vec3 enters = (origin + hit.t * direction - tree.data[0].origin) / voxel;
+        vec3 against = lightAgainst(surface.cell, level, uvec3(max(enters, vec3(0.0))), direction);
+        vec3 light = surface.emission + surface.base_color * against;
         sum += through * coverage * light;
         through *= 1.0 - coverage;
         t = max(times.y, hit.t) + kConeStep * voxel;
     }
-    return vec4(sum, through > kConeThrough ? through : 0.0);
+    // What too many nodes have let through has not met nothing.
+    return vec4(sum, t >= t_max && through > kConeThrough ? through : 0.0);
 }

@@ -21,6 +21,7 @@ layout(constant_id = 2) const bool kOrthographic = false;
 
 #include "trace/any_tree.glsl"
 #include "light/map_radiance.glsl"
+#include "light/sun_irradiance.glsl"
 #include "path/face.glsl"
 #include "path/strip.glsl"
 #include "radiance/seen_sum.glsl"
@@ -61,8 +62,7 @@ vec3 coneDirection(vec3 normal, uint cone, float turn, vec2 u)
 vec3 sunAt(vec3 point, vec3 normal)
 {
     vec3 to_sun = params.environment.data[0].to_sun;
-    float cosine = max(dot(normal, to_sun), 0.0);
-    vec3 sun = params.environment.data[0].sun * 2.0 * params.environment.data[0].sun_height * cosine;
+    vec3 sun = sunIrradiance(params.environment, normal);
     return sun != vec3(0.0) && !zvo_occluded(params.tree, point, to_sun, 0.0, kTraceTimeMax) ? sun : vec3(0.0);
 }
 
