@@ -151,19 +151,23 @@ public:
         tracer.resize(m_options.path_width, m_options.path_height, PathForm::Stages);
         in_one_kernel.resize(m_options.path_width, m_options.path_height, PathForm::OneKernel);
         const PathOptions options;
-        const auto sampleBy = [&](PathTracer& form)
-        { return m_device.run([&](vk::FrameGraph& graph) { form.addSample(graph, m_tree, sky, camera, options); }); };
+        vk::BufferOf<gpu::DispatchArgs> lists(m_device.device(), "bench/lists", tracer.listElements(options));
+        const auto sampleBy = [&](PathTracer& form, vk::BufferOf<gpu::DispatchArgs>* lists_of_sample)
+        {
+            return m_device.run([&](vk::FrameGraph& graph)
+                                { form.addSample(graph, m_tree, sky, camera, options, lists_of_sample); });
+        };
         std::vector<double> sample_ms;
         std::vector<double> one_kernel_ms;
         for (std::uint32_t run = 0; run <= m_options.run_count; ++run)
         {
-            const std::vector<vk::PassTime> passes = sampleBy(tracer);
-            const std::vector<vk::PassTime> one_kernel_passes = sampleBy(in_one_kernel);
+            const std::vector<vk::PassTime> passes = sampleBy(tracer, &lists);
+            const std::vector<vk::PassTime> one_kernel_passes = sampleBy(in_one_kernel, nullptr);
             if (run != 0) // the first one makes kernels, tables and lights
             {
                 sample_ms.push_back(sumMs(passes));
                 one_kernel_ms.push_back(sumMs(one_kernel_passes));
-                addRays(row, passes, m_device.download(tracer.lists()), options.bounces);
+                addRays(row, passes, m_device.download(lists), options.bounces);
             }
         }
         row.sample_ms = Spread::of(sample_ms);
@@ -213,14 +217,17 @@ public:
     }
 
 private:
-    // Adds the rays of a sample, whose passes of trace/rays stand in the order of bounces: rays, then shadow rays.
+    // Adds the rays of a sample, whose passes of trace/rays stand in the order of batches, then of bounces: rays, then
+    // shadow rays.
     static void addRays(SpeedRow& row, const std::vector<vk::PassTime>& passes,
                         const std::vector<gpu::DispatchArgs>& lists, std::uint32_t bounces)
     {
-        const auto lengthOf = [&](std::uint32_t bounce, std::uint32_t list) -> std::uint64_t
+        const std::uint32_t passes_of_batch = 2 * bounces + 1;
+        const std::uint64_t elements_of_batch = std::uint64_t{bounces + 2} * gpu::kListElements;
+        const auto lengthOf = [&](std::uint32_t batch, std::uint32_t bounce, std::uint32_t list) -> std::uint64_t
         {
             const auto* words = reinterpret_cast<const gpu::uint*>(
-                &lists[std::size_t{bounce} * gpu::kListElements + gpu::kListLengths]);
+                &lists.at(batch * elements_of_batch + std::uint64_t{bounce} * gpu::kListElements + gpu::kListLengths));
             return words[list];
         };
         std::uint32_t number = 0;
@@ -230,15 +237,16 @@ private:
             {
                 continue;
             }
-            const std::uint32_t bounce = number / 2;
-            const bool is_shadow = number % 2 == 1;
+            const std::uint32_t batch = number / passes_of_batch;
+            const std::uint32_t bounce = number % passes_of_batch / 2;
+            const bool is_shadow = number % passes_of_batch % 2 == 1;
             ++number;
             Rays& rays = is_shadow ? row.shadows : bounce == 0 ? row.primary : row.bounces;
-            rays.add({lengthOf(bounce, is_shadow ? gpu::kListShadows : gpu::kListPaths), pass.ms});
+            rays.add({lengthOf(batch, bounce, is_shadow ? gpu::kListShadows : gpu::kListPaths), pass.ms});
         }
-        if (number != 2 * bounces + 1)
+        if (number * elements_of_batch != passes_of_batch * lists.size())
         {
-            throw Error(ErrorCode::Other, "a picture has more pixels, or a grid more levels, than are counted");
+            throw Error(ErrorCode::Other, "a grid has more levels than are counted");
         }
     }
 

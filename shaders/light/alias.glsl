@@ -5,11 +5,7 @@
 // The weight in steps of cell i of a normal.
 uint weightOf(uint normal, uint i)
 {
-    float heaviest = uintBitsToFloat(params.totals.data[0].heaviest[normal]);
-    float weight = params.weights.data[normal * params.cell_count + i];
-    const uint steps = (1u << kWeightBits) - 1u;
-    uint rounded = uint(weight / max(heaviest, kSmallestFloat) * float(steps) + 0.5);
-    return weight > 0.0 ? clamp(rounded, 1u, steps) : 0u;
+    return params.weights.data[normal * params.cell_count + i];
 }
 
 // The sum of all weights of a normal, in steps.

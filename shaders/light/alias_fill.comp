@@ -56,8 +56,9 @@ void main()
     if (!light)
     {
         uint64_t end = own + 1u < all.heavy_count ? params.heavy.data[base + own + 1u].before : all.gives;
-        // The light cell whose stretch begins before that end, and ends at it or after it.
-        uint next = countUpTo(params.light, base, all.light_count, end);
+        // The light cell whose stretch begins before that end (which is above 0), and ends at it or after it. One that
+        // begins there is filled up by the next heavy cell.
+        uint next = countUpTo(params.light, base, all.light_count, end - 1u);
         uint64_t next_before = next < all.light_count ? params.light.data[base + next].before : all.lacks;
         if (next_before > end && own + 1u < all.heavy_count)
         {

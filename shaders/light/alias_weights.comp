@@ -80,7 +80,7 @@ void main()
         [[unroll]] for (uint normal = 0u; normal < kNormals; ++normal)
         {
             float weight = light * (kEvenly ? 1.0 : normal < 3u ? up[normal % 3u] : down[normal % 3u]);
-            params.weights.data[normal * cells.x * cells.y + i] = weight;
+            params.weights.data[normal * cells.x * cells.y + i] = floatBitsToUint(weight);
             atomicMax(s_heaviest[normal], floatBitsToUint(weight));
         }
     }

@@ -8,8 +8,8 @@
 // Directions are chosen by cells, which divide the map evenly: a cell by an alias table (A. Walker, 1977), in it a
 // direction uniformly by solid angle. There is a table for each of the six normals that faces of voxels have. A cell's
 // weight is its mean luminance times its solid angle times the cosine between its directions and the normal, as a
-// fraction of the heaviest cell's in kWeightBits bits, but at least one step. All further numbers are integers, so that
-// probabilities are the weights' shares exactly.
+// fraction of the heaviest cell's in kWeightBits bits, but at least one step. One kernel rounds it, as others may round
+// in another way. All further numbers are integers, so that probabilities are the weights' shares exactly.
 //
 // Alias tables are made in parallel (L. Huebschle-Schneider, P. Sanders, Parallel Weighted Random Sampling, 2019). A
 // cell is light if its weight is at most the mean, else heavy. What light cells lack and what heavy cells have too much
@@ -80,7 +80,7 @@ GPU_KERNEL(light, sky_texels, SkyTexels, SkyTexelsParams)
 struct AliasWeightsParams // push constants of light/alias_weights: a thread a cell
 {
     GPU_CONST_PTR(vec3) texels;
-    GPU_PTR(float) weights; // [kNormals][cells]
+    GPU_PTR(uint) weights; // [kNormals][cells] bits of floats
     GPU_PTR(AliasTotals) totals;
     EnvironmentMap map;
 };
@@ -91,7 +91,7 @@ GPU_KERNEL_END
 /// Push constants of the other kernels for tables: a workgroup a block of cells of a normal, all blocks of +x first.
 struct AliasParams
 {
-    GPU_CONST_PTR(float) weights;
+    GPU_PTR(uint) weights; // [kNormals][cells] from alias_totals on in steps
     GPU_PTR(AliasTotals) totals;
     GPU_PTR(AliasSums) sums;  // [kNormals][blocks]
     GPU_PTR(AliasItem) light; // [kNormals][cells]
@@ -100,7 +100,7 @@ struct AliasParams
     uint cell_count;
     uint block_count;
 };
-GPU_KERNEL(light, alias_totals, AliasTotals, AliasParams)
+GPU_KERNEL(light, alias_totals, AliasTotals, AliasParams) // also rounds weights to steps
 GPU_KERNEL(light, alias_sums, AliasSums, AliasParams)
 GPU_KERNEL(light, alias_scan, AliasScan, AliasParams) // a workgroup a normal
 GPU_KERNEL(light, alias_lists, AliasLists, AliasParams)

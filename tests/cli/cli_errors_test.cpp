@@ -114,7 +114,11 @@ const std::vector<ErrorCase>& errorCases()
          {"No space left"},
          {}},
 
-        {"UnknownDevice", 5, {"voxelize", "cube.glb", "-o", "a.ply", "--device", "voodoo"}, {"voodoo", "llvmpipe"}, {}},
+        {"UnknownDevice",
+         5,
+         {"voxelize", "cube.glb", "-o", "a.ply", "--device", "voodoo"},
+         {"voodoo", "the devices are 0: "},
+         {}},
         {"NoDriver",
          5,
          {"voxelize", "cube.glb", "-o", "a.ply"},

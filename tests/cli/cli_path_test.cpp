@@ -125,7 +125,7 @@ TEST_F(CliPath, TheReportTellsHowPathsWereTraced)
         EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
         return nlohmann::json::parse(outcome.out)["paths"];
     };
-    const nlohmann::json plain = reported({"-o", "plain.png"});
+    const nlohmann::json plain = reported({"-o", "plain.png", "--tuning", "path-form=stages"});
     EXPECT_EQ(plain["samples_asked"], 2);
     EXPECT_EQ(plain["stopped"], false);
     EXPECT_EQ(plain["form"], "stages");

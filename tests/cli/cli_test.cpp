@@ -220,10 +220,11 @@ TEST_F(CliRun, InfoListsDevices)
                   "devices[].usable boolean", "devices[].chosen boolean", "devices[].present[] string"});
     EXPECT_TRUE(info["devices"][0]["missing"].is_array());
     EXPECT_TRUE(info["devices"][0]["reasons"].is_array());
-    EXPECT_TRUE(contains(run({"info", "--device", "cpu"}).out, "<- would be used"));
+    const std::string type = info["devices"][0]["type"];
+    EXPECT_TRUE(type != "cpu" || contains(run({"info", "--device", "cpu"}).out, "<- would be used"));
     const Outcome none = runZvo(m_dir.path(), {"info", "--device", "voodoo"});
     EXPECT_EQ(none.exit_code, 5);
-    EXPECT_TRUE(contains(none.out, "llvmpipe"));
+    EXPECT_TRUE(contains(none.out, info["devices"][0]["name"].get<std::string>()));
 }
 
 TEST_F(CliRun, PipelinesAreKeptInTheCacheFolder)

@@ -15,6 +15,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <string>
@@ -60,6 +61,20 @@ Picture readPng(const std::filesystem::path& path)
         std::copy_n(image.rgba.begin() + static_cast<std::ptrdiff_t>(4 * i), 3, picture.rgb[i].begin());
     }
     return picture;
+}
+
+// Of codes.
+int largestDifference(const Picture& a, const Picture& b)
+{
+    int largest = 0;
+    for (std::size_t i = 0; i < a.rgb.size(); ++i)
+    {
+        for (std::size_t channel = 0; channel < 3; ++channel)
+        {
+            largest = std::max(largest, std::abs(int{a.rgb[i][channel]} - int{b.rgb[i][channel]}));
+        }
+    }
+    return largest;
 }
 
 std::filesystem::path exampleProgram(const std::string& name)
@@ -151,10 +166,10 @@ TEST_F(Examples, TheHostsShaderFindsWhatPicturesShow)
     EXPECT_NE(albedo, normals);
     run("host_shader", {"albedo.ppm", "normals.ppm"});
     EXPECT_EQ(ppm("albedo.ppm"), albedo);
-    EXPECT_EQ(ppm("normals.ppm"), normals);
+    EXPECT_LE(largestDifference(ppm("normals.ppm"), normals), 1) << "another kernel may round in another way";
     run("host_shader", {"albedo_bare.ppm", "normals_bare.ppm", "--no-optional"});
     EXPECT_EQ(ppm("albedo_bare.ppm"), albedo);
-    EXPECT_EQ(ppm("normals_bare.ppm"), normals);
+    EXPECT_LE(largestDifference(ppm("normals_bare.ppm"), normals), 1);
 }
 
 TEST_F(Examples, TwoContextsShowTheSame)
@@ -186,7 +201,7 @@ TEST_F(Examples, ArgumentsThatMakeNoSenseAreNamed)
     {
         std::vector<std::string> command = {"progressive"};
         command.insert(command.end(), arguments.begin(), arguments.end());
-        return test::ZvoProcess(std::filesystem::path(ZVO_EXAMPLES_DIR) / "progressive", path(""), command, {}).wait();
+        return test::ZvoProcess(exampleProgram("progressive"), path(""), command, {}).wait();
     };
     for (const std::string count : {"0", "abc", "1e9", "4.5", "4294967296"})
     {

@@ -162,8 +162,9 @@ PosedGpuScene makePosedScene(std::uint64_t seed, std::uint64_t number)
     std::mt19937_64 random(seed * 1'000'003 + number);
     const auto uniform = [&](float low, float high)
     { return std::uniform_real_distribution<float>(low, high)(random); };
-    const auto vector = [&](float reach)
-    { return glm::vec3(uniform(-reach, reach), uniform(-reach, reach), uniform(-reach, reach)); };
+    const auto vector = [&](float reach) {
+        return glm::vec3{uniform(-reach, reach), uniform(-reach, reach), uniform(-reach, reach)};
+    };
 
     PosedGpuScene placed;
     placed.grid.depth = 5 + static_cast<std::uint32_t>(random() % 4);

@@ -72,4 +72,15 @@ PathPicture pictureOf(RadianceTracer& tracer)
     return picture;
 }
 
+PathPicture settledPicture(RadianceTracer& tracer, const DeviceTree& tree, DeviceEnvironment& environment,
+                           const ViewCamera& view, std::uint32_t edge, std::uint32_t settle, std::uint32_t frames,
+                           const RadianceOptions& options, KeptView kind)
+{
+    tracer.resize(edge, edge);
+    runFrames(tracer, tree, environment, view, settle, options);
+    tracer.beginPicture();
+    runFrames(tracer, tree, environment, view, frames, options, kind);
+    return pictureOf(tracer);
+}
+
 } // namespace zvo::test

@@ -47,4 +47,9 @@ void runFrames(RadianceTracer& tracer, const DeviceTree& tree, DeviceEnvironment
 /// The mean of a tracer's picture. Expects that no ray was given up.
 PathPicture pictureOf(RadianceTracer& tracer);
 
+/// The mean of the last `frames` frames after `settle` frames, in a picture of edge * edge pixels.
+PathPicture settledPicture(RadianceTracer& tracer, const DeviceTree& tree, DeviceEnvironment& environment,
+                           const ViewCamera& view, std::uint32_t edge, std::uint32_t settle, std::uint32_t frames,
+                           const RadianceOptions& options = {}, KeptView kind = KeptView::Faces);
+
 } // namespace zvo::test

@@ -67,6 +67,11 @@ std::vector<gpu::Attribute> nodeAttributes(const DeviceTree& tree, std::span<con
 
 } // namespace
 
+LitVoxel whiteVoxel()
+{
+    return {{}, glm::uvec3(255), glm::vec3(0.0F)};
+}
+
 glm::dvec3 albedoOf(const LitVoxel& voxel)
 {
     glm::dvec3 linear;

@@ -20,6 +20,9 @@ struct LitVoxel
     glm::vec3 emission{0.0F}; // radiance; must be a multiple of 2^-8 below 2
 };
 
+/// It reflects all light.
+LitVoxel whiteVoxel();
+
 /// Linear albedo of a voxel.
 glm::dvec3 albedoOf(const LitVoxel& voxel);
 

@@ -13,6 +13,7 @@ Scene materialsScene(float extent, std::size_t count, std::uint32_t seed)
     std::mt19937 random(seed);
     std::uniform_real_distribution<float> uniform(0.0F, 1.0F);
     Scene scene;
+    // Braces draw numbers in the order in which they stand, with any compiler.
     for (std::uint32_t kind = 0; kind < 5; ++kind)
     {
         Scene part = randomTriangles(23 + seed + kind, count, extent);
@@ -31,8 +32,8 @@ Scene materialsScene(float extent, std::size_t count, std::uint32_t seed)
             material.base_color_texture = 0;
             for (std::size_t i = 0; i < primitive.positions.size(); ++i)
             {
-                primitive.uvs.emplace_back(uniform(random), uniform(random));
-                primitive.colors.emplace_back(uniform(random), uniform(random), uniform(random), 1.0F);
+                primitive.uvs.push_back({uniform(random), uniform(random)});
+                primitive.colors.push_back({uniform(random), uniform(random), uniform(random), 1.0F});
             }
         }
         material.alpha_mode = kind == 2 ? AlphaMode::Mask : (kind == 3 ? AlphaMode::Blend : AlphaMode::Opaque);

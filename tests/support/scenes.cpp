@@ -30,8 +30,9 @@ Scene randomTriangles(std::uint32_t seed, std::size_t count, float extent)
     std::mt19937 random(seed);
     const auto uniform = [&](float low, float high)
     { return std::uniform_real_distribution<float>(low, high)(random); };
-    const auto point = [&](float size)
-    { return glm::vec3(uniform(-size, size), uniform(-size, size), uniform(-size, size)); };
+    const auto point = [&](float size) {
+        return glm::vec3{uniform(-size, size), uniform(-size, size), uniform(-size, size)};
+    }; // drawn in this order
     std::vector<glm::vec3> corners;
     for (std::size_t i = 0; i < count; ++i)
     {

@@ -10,6 +10,13 @@
 namespace zvo::test
 {
 
+/// Whether tests are to take the time that they need to show everything: ZVO_TEST_FULL=1.
+inline bool isFull()
+{
+    const char* full = std::getenv("ZVO_TEST_FULL");
+    return full != nullptr && std::string_view(full) == "1";
+}
+
 /// Chooses the calls that fail, one in each run, in tests of all failures. By default every fifth call fails, the first
 /// of which is another one in each sweep of the same test. ZVO_TEST_SWEEP_START=N begins with call N modulo 5. With
 /// ZVO_TEST_FULL=1 every call fails.
@@ -18,8 +25,7 @@ class Sweep
 public:
     explicit Sweep(std::uint64_t step = 5)
     {
-        const char* full = std::getenv("ZVO_TEST_FULL");
-        m_step = full != nullptr && std::string_view(full) == "1" ? 1 : step;
+        m_step = test::isFull() ? 1 : step;
         const char* start = std::getenv("ZVO_TEST_SWEEP_START");
         m_start = start != nullptr ? std::strtoull(start, nullptr, 10) : 0;
     }

@@ -61,8 +61,8 @@ oracle::Ray pickRay(std::mt19937& random, std::uint32_t resolution, const Codes&
     const auto edge = 1.0F / static_cast<float>(resolution);
     int kind = pick(0, 8);
     kind = kind == 6 && !very_far ? 5 : kind;
-    glm::vec3 origin(uniform(0.5F, 2.5F), uniform(0.5F, 2.5F), uniform(0.5F, 2.5F));
-    glm::vec3 direction(uniform(-1.0F, 1.0F), uniform(-1.0F, 1.0F), uniform(-1.0F, 1.0F));
+    glm::vec3 origin{uniform(0.5F, 2.5F), uniform(0.5F, 2.5F), uniform(0.5F, 2.5F)};
+    glm::vec3 direction{uniform(-1.0F, 1.0F), uniform(-1.0F, 1.0F), uniform(-1.0F, 1.0F)};
     const glm::vec3 voxel(oracle::mortonDecode(codes[random() % codes.size()]));
     const bool aims = pick(0, 1) == 1;
     for (int axis = 0; axis < 3; ++axis)

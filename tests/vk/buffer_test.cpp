@@ -66,13 +66,13 @@ TEST(Buffer, OnlyHostBuffersAreMapped)
 TEST(Buffer, MoreThanTheBudgetIsAMemoryErrorThatNamesTheBuffer)
 {
     vk::HeadlessOptions options = test::deviceOptions();
-    options.memory_budget_bytes = 1 << 20;
-    options.overrides.buffer_slack = 0; // bytes
+    options.memory_budget_bytes = 32 << 20; // staging buffers take a few MiB
+    options.overrides.buffer_slack = 0;     // bytes
     vk::HeadlessDevice small(options, testKernels());
-    const vk::Buffer half(small.device(), "half", 1 << 19);
+    const vk::Buffer half(small.device(), "half", 16 << 20);
     try
     {
-        const vk::Buffer whole(small.device(), "whole", 1 << 20);
+        const vk::Buffer whole(small.device(), "whole", 32 << 20);
         FAIL() << "it was allowed";
     }
     catch (const Error& error)
@@ -81,7 +81,7 @@ TEST(Buffer, MoreThanTheBudgetIsAMemoryErrorThatNamesTheBuffer)
         EXPECT_NE(std::string(error.what()).find("whole"), std::string::npos) << error.what();
         EXPECT_NE(std::string(error.what()).find("raise the limit, or"), std::string::npos) << error.what();
     }
-    const vk::Buffer rest(small.device(), "rest", 1 << 18);
+    const vk::Buffer rest(small.device(), "rest", 8 << 20);
 }
 
 TEST(Buffer, MoreThanABufferCanHoldIsAMemoryError)

@@ -171,7 +171,8 @@ TEST(MemoryCallbacks, EveryRequestMayFail)
                 ++failures;
             }
             failed = world.memory.requestCount() > number;
-            EXPECT_TRUE(count == 1 || thrown == failed);
+            EXPECT_TRUE(failed || !thrown);
+            EXPECT_TRUE(count == 1 || number != 0 || thrown); // later ones may do with the blocks that there are
             EXPECT_EQ(device.memory().usedBytes(), 0u);
             EXPECT_EQ(device.memory().heldBytes(), world.memory.liveBytes());
             world.memory.failRequests(UINT64_MAX);

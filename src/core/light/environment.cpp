@@ -55,7 +55,7 @@ DeviceEnvironment::DeviceEnvironment(vk::Device& device, std::uint32_t width, st
     const std::uint64_t cell_count = std::uint64_t{m_values.map.cells_x} * m_values.map.cells_y;
     const std::uint64_t table_cells = gpu::kNormals * cell_count;
     device.memory().require(texel_count * sizeof(gpu::vec3) +
-                                table_cells * (sizeof(gpu::AliasCell) + sizeof(float) + 2 * sizeof(gpu::AliasItem)),
+                                table_cells * (sizeof(gpu::AliasCell) + sizeof(gpu::uint) + 2 * sizeof(gpu::AliasItem)),
                             "the environment map");
     m_texels = {device, "light/texels", texel_count};
     m_cells = {device, "light/alias_cells", table_cells};
@@ -156,7 +156,7 @@ void DeviceEnvironment::buildTables(vk::FrameGraph& graph)
     const auto run = [&]<typename Kernel>(const Kernel& kernel, std::uint64_t threads)
     {
         vk::Pass pass = graph.addPass(kernel);
-        const gpu::AliasParams params = {pass.read(m_weights),
+        const gpu::AliasParams params = {pass.readWrite(m_weights),
                                          pass.readWrite(m_totals),
                                          pass.readWrite(m_sums),
                                          pass.readWrite(m_light),

@@ -89,7 +89,7 @@ private:
     vk::BufferOf<gpu::vec2> m_gives;
     vk::BufferOf<gpu::Environment> m_buffer;
     // What only the making of tables needs.
-    vk::BufferOf<float> m_weights;
+    vk::BufferOf<gpu::uint> m_weights;
     vk::BufferOf<gpu::AliasSums> m_sums;
     vk::BufferOf<gpu::AliasItem> m_light;
     vk::BufferOf<gpu::AliasItem> m_heavy;

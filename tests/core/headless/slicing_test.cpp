@@ -115,7 +115,7 @@ TEST(Slicing, ByTimeGivesTheSameBytesColdAndWarm)
             const Made sliced = make({.submission_ms = ms}, scene, 8, {}, rounds);
             EXPECT_EQ(sliced.sha, expected.sha);
             EXPECT_EQ(sliced.image, expected.image);
-            EXPECT_GT(sliced.most_submissions, 1U);
+            EXPECT_TRUE(sliced.most_submissions > 1 || ms > 0.1) << "a GPU may need less than a millisecond";
         }
     }
 }

@@ -114,7 +114,7 @@ void expectIsATable(const Tables& tables, std::uint32_t normal)
     for (std::size_t i = 0; i < count; ++i)
     {
         const double probability = tables.cells[normal * count + i].probability;
-        ASSERT_NEAR(chances[i], probability, 1e-9 + 1e-6 * probability) << i;
+        ASSERT_NEAR(chances[i], probability, 1e-9 + 4e-6 * probability) << i; // thresholds have 24 bits
         ASSERT_EQ(probability > 0.0, chances[i] > 1e-13) << i;
     }
 }
@@ -182,6 +182,23 @@ TEST(Environment, MakesTablesForMapsOfEverySize)
             {
                 expectIsATable(tables, normal);
             }
+        }
+    }
+}
+
+// In symmetric tables it happens that a light and a heavy cell's stretch begin at the same place: on lavapipe in 1x25,
+// 33x39, 33x53 and 33x57, elsewhere in others.
+TEST(Environment, MakesTablesInWhichStretchesBeginTogether)
+{
+    for (const std::uint32_t width : {1U, 33U})
+    {
+        for (std::uint32_t height = 1; height < 64; ++height)
+        {
+            SCOPED_TRACE(height);
+            const HdrImage even = {width, height, std::vector<glm::vec3>(width * height, glm::vec3(1.0F))};
+            DeviceEnvironment environment(lightDevice().device(), even, 0.0, 1.0);
+            environment.chooseEvenly();
+            expectIsATable(tablesOf(environment), 0);
         }
     }
 }

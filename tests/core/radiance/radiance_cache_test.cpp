@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Light that is kept on voxels against known answers, and against path tracing.
+// Light that is kept on voxels: pictures against those of path tracing, bytes, bricks, budgets and tables.
 #include "core/radiance/radiance_cache.h"
 
 #include "core/scene/camera.h"
@@ -28,11 +28,8 @@ using test::LitVoxel;
 using test::PathPicture;
 using test::pictureOf;
 using test::runFrames;
-
-LitVoxel white()
-{
-    return {{}, glm::uvec3(255), glm::vec3(0.0F)};
-}
+using test::settledPicture;
+using test::whiteVoxel;
 
 LitVoxel grey()
 {
@@ -44,23 +41,6 @@ LitVoxel lamp()
     return {{}, glm::uvec3(0), glm::vec3(1.5F, 1.0F, 0.5F)};
 }
 
-ViewCamera outside()
-{
-    return ViewCamera::lookAt({19.0, 15.0, 23.0}, {4.0, 4.0, 4.0}, 0.4);
-}
-
-// The picture after so many frames, of the last ones.
-PathPicture settledPicture(RadianceTracer& tracer, const DeviceTree& tree, DeviceEnvironment& environment,
-                           const ViewCamera& view, std::uint32_t edge, std::uint32_t settle, std::uint32_t frames,
-                           const RadianceOptions& options = {}, KeptView kind = KeptView::Faces)
-{
-    tracer.resize(edge, edge);
-    runFrames(tracer, tree, environment, view, settle, options);
-    tracer.beginPicture();
-    runFrames(tracer, tree, environment, view, frames, options, kind);
-    return pictureOf(tracer);
-}
-
 // The faces, and the bricks of each level.
 std::vector<std::map<FaceName, FaceLight>> levelsOf(RadianceCache& cache)
 {
@@ -70,103 +50,6 @@ std::vector<std::map<FaceName, FaceLight>> levelsOf(RadianceCache& cache)
         levels.push_back(facesOf(cache, level));
     }
     return levels;
-}
-
-// A convex body of albedo 1 in a constant sky looks like the sky.
-TEST(RadianceFurnace, AWhiteCubeCannotBeSeen)
-{
-    std::vector<LitVoxel> voxels;
-    test::addBox(voxels, {2, 2, 2}, {6, 6, 6}, white());
-    const DeviceTree tree = test::litTree(device(), voxels, 3);
-    DeviceEnvironment sky = constantSky({0.5F, 1.0F, 2.0F});
-    RadianceTracer tracer(device().device());
-    const PathPicture picture = settledPicture(tracer, tree, sky, outside(), 64, 1024, 8);
-    const auto faces = facesOf(tracer.cache());
-    ASSERT_EQ(faces.size(), 3U * 16U);
-    glm::dvec3 mean(0.0);
-    for (const auto& [name, face] : faces)
-    {
-        mean += face.radiance / static_cast<double>(faces.size());
-        EXPECT_NEAR(face.radiance.g, 1.0, 0.01);
-    }
-    EXPECT_NEAR(mean.r, 0.5, 0.0005);
-    EXPECT_NEAR(mean.g, 1.0, 0.001);
-    EXPECT_NEAR(mean.b, 2.0, 0.002);
-    for (const glm::dvec3& pixel : picture.pixels)
-    {
-        EXPECT_NEAR(pixel.g, 1.0, 0.01);
-    }
-}
-
-// It looks nearly like the sky through cones, too.
-TEST(RadianceFurnace, AWhiteCubeCanHardlyBeSeenThroughCones)
-{
-    std::vector<LitVoxel> voxels;
-    test::addBox(voxels, {2, 2, 2}, {6, 6, 6}, white());
-    const DeviceTree tree = test::litTree(device(), voxels, 3);
-    DeviceEnvironment sky = constantSky({0.5F, 1.0F, 2.0F});
-    RadianceTracer tracer(device().device());
-    tracer.resize(64, 64);
-    runFrames(tracer, tree, sky, outside(), 64, {});
-    tracer.beginPicture();
-    const TraceCamera camera = traceCamera(outside(), tree.grid, 64);
-    device().run([&](vk::FrameGraph& graph) { tracer.addFrame(graph, tree, sky, camera, {}, KeptView::Cones); });
-    const PathPicture picture = pictureOf(tracer);
-    EXPECT_NEAR(picture.luminance, test::luminanceOf({0.5, 1.0, 2.0}), 0.02);
-}
-
-// So does a body with holes, by many bounces.
-TEST(RadianceFurnace, AWhiteBowlCannotBeSeen)
-{
-    std::vector<LitVoxel> voxels;
-    test::addBox(voxels, {0, 0, 0}, {8, 1, 8}, white());
-    test::addBox(voxels, {0, 1, 0}, {1, 6, 8}, white());
-    test::addBox(voxels, {1, 1, 0}, {8, 4, 1}, white());
-    test::addBox(voxels, {3, 1, 3}, {5, 3, 5}, white());
-    const DeviceTree tree = test::litTree(device(), voxels, 3);
-    DeviceEnvironment sky = constantSky(glm::vec3(1.0F));
-    RadianceTracer tracer(device().device());
-    const PathPicture picture = settledPicture(tracer, tree, sky, outside(), 64, 512, 8);
-    EXPECT_NEAR(picture.luminance, 1.0, 0.005);
-    for (const glm::dvec3& pixel : picture.pixels)
-    {
-        EXPECT_NEAR(pixel.g, 1.0, 0.05);
-    }
-}
-
-// In a closed room whose walls glow, all bounces add up to the sum of a geometric series.
-TEST(RadianceFurnace, AGlowingRoomHasTheLightOfAllBounces)
-{
-    LitVoxel wall = grey();
-    wall.emission = glm::vec3(0.5F);
-    const DeviceTree tree = test::litTree(device(), test::roomOf(wall, 8), 3);
-    DeviceEnvironment dark = constantSky(glm::vec3(0.0F));
-    const ViewCamera inside = ViewCamera::lookAt({4.2, 4.1, 4.3}, {1.0, 2.0, 3.0}, 1.0);
-    RadianceTracer tracer(device().device());
-    const PathPicture picture = settledPicture(tracer, tree, dark, inside, 64, 256, 8);
-    const double expected = 0.5 / (1.0 - test::albedoOf(wall).r);
-    EXPECT_NEAR(picture.luminance, expected, 0.005 * expected);
-}
-
-// A wall of one voxel keeps all light of a lamp behind it, on its faces and in the picture.
-TEST(RadianceWalls, NoLightComesThrough)
-{
-    std::vector<LitVoxel> voxels = test::roomOf(white(), 8);
-    test::addBox(voxels, {3, 3, 3}, {5, 5, 5}, lamp());
-    // Faces outside of the room that see its walls and each other.
-    test::addBox(voxels, {10, 0, 0}, {11, 8, 8}, white());
-    const DeviceTree tree = test::litTree(device(), voxels, 4);
-    DeviceEnvironment dark = constantSky(glm::vec3(0.0F));
-    const ViewCamera beside = ViewCamera::lookAt({9.5, 14.0, 25.0}, {9.0, 4.0, 4.0}, 0.8);
-    RadianceTracer tracer(device().device());
-    const PathPicture picture = settledPicture(tracer, tree, dark, beside, 64, 64, 4);
-    EXPECT_EQ(picture.mean, glm::dvec3(0.0));
-    const auto faces = facesOf(tracer.cache());
-    EXPECT_GT(faces.size(), 200U);
-    for (const auto& [name, face] : faces)
-    {
-        EXPECT_EQ(face.radiance, glm::dvec3(0.0));
-    }
 }
 
 // A hall with a lamp and walls of two colours, from inside.
@@ -221,7 +104,7 @@ TEST(RadiancePictures, AreThoseOfPathTracing)
 TEST(RadiancePictures, AreSmoothAfterFewFrames)
 {
     std::vector<LitVoxel> voxels;
-    test::addBox(voxels, {0, 0, 0}, {32, 1, 32}, white());
+    test::addBox(voxels, {0, 0, 0}, {32, 1, 32}, whiteVoxel());
     test::addBox(voxels, {8, 14, 8}, {24, 15, 24}, {{}, glm::uvec3(0), glm::vec3(0.0F)});
     const DeviceTree tree = test::litTree(device(), voxels, 5);
     DeviceEnvironment sky = constantSky(glm::vec3(1.0F));
@@ -369,8 +252,8 @@ TEST(RadianceBricks, KeepMeansOfWhatIsInThem)
 TEST(RadianceBricks, ShareNoLightThroughWalls)
 {
     std::vector<LitVoxel> voxels;
-    test::addBox(voxels, {0, 0, 0}, {16, 1, 16}, white());
-    test::addBox(voxels, {6, 1, 0}, {7, 8, 16}, white());
+    test::addBox(voxels, {0, 0, 0}, {16, 1, 16}, whiteVoxel());
+    test::addBox(voxels, {6, 1, 0}, {7, 8, 16}, whiteVoxel());
     test::addBox(voxels, {2, 7, 7}, {4, 8, 9}, lamp());
     const DeviceTree tree = test::litTree(device(), voxels, 4);
     DeviceEnvironment dark = constantSky(glm::vec3(0.0F));

@@ -8,6 +8,7 @@
 #include "support/kept_light.h"
 #include "support/lit_voxels.h"
 #include "support/scenes.h"
+#include "support/sweep.h"
 
 #include <gtest/gtest.h>
 
@@ -172,6 +173,119 @@ TEST(RadianceMoves, WhatHasMovedOnTakesNoRoom)
         stage.moveTo(20.0F + static_cast<float>(frame % 2));
     }
     EXPECT_EQ(boxFacesAtTheLeft(), 0);
+}
+
+// A closed room below an even sky, seen from inside. A hole in its ceiling lets light in.
+class Room
+{
+public:
+    Room() : m_tree(device(), test::litTree(device(), test::roomOf({{}, glm::uvec3(188), glm::vec3(0.0F)}, 16), 4), {})
+    {
+        m_tracer.resize(48, 48);
+    }
+
+    void carve()
+    {
+        const Brush hole = {.action = BrushAction::Carve, .center = {8, 15, 8}, .radius = 2};
+        for (bool is_done = false; !is_done;)
+        {
+            frame([&](vk::FrameGraph& graph) { is_done = m_tree.edit(graph, hole); });
+        }
+        m_tree.endStroke();
+        m_tracer.cache().noteChange();
+    }
+
+    void undo()
+    {
+        frame([&](vk::FrameGraph& graph) { EXPECT_TRUE(m_tree.undoEdit(graph)); });
+        m_tracer.cache().noteChange();
+    }
+
+    void run(std::uint32_t frames) { test::runFrames(m_tracer, m_tree.tree(), m_sky, m_view, frames, {}); }
+
+    // The mean over the faces of the floor below the hole.
+    double lightOnFloor()
+    {
+        double sum = 0.0;
+        double count = 0.0;
+        for (const auto& [name, face] : faces())
+        {
+            const glm::ivec2 from_middle = glm::abs(glm::ivec2(name.cell.x, name.cell.z) - 8);
+            if (name.cell.y == 0 && name.normal == kUp && from_middle.x < 4 && from_middle.y < 4)
+            {
+                sum += face.radiance.g;
+                ++count;
+            }
+        }
+        EXPECT_GT(count, 40.0);
+        return sum / count;
+    }
+
+    std::map<FaceName, FaceLight> faces() { return facesOf(m_tracer.cache()); }
+
+private:
+    template <typename Record> void frame(const Record& record)
+    {
+        const std::uint64_t number = m_tree.beginFrame();
+        device().run(record);
+        m_tree.frameDone(number);
+    }
+
+    DynamicOctree m_tree;
+    DeviceEnvironment m_sky = test::constantSky(glm::vec3(1.0F));
+    RadianceTracer m_tracer{device().device()};
+    ViewCamera m_view = ViewCamera::lookAt({8.3, 13.0, 12.4}, {8.0, 0.0, 7.0}, 1.2);
+};
+
+// The same story gives the same bytes, on another table.
+TEST(RadianceEdits, AHoleLetsLightInUntilItIsUndone)
+{
+    Room room;
+    Room other;
+    const auto run = [&](std::uint32_t frames)
+    {
+        room.run(frames);
+        other.run(frames);
+    };
+    run(64);
+    EXPECT_EQ(room.lightOnFloor(), 0.0);
+    room.carve();
+    other.carve();
+    run(32);
+    const double lit = room.lightOnFloor();
+    EXPECT_GT(lit, 0.01);
+    room.undo();
+    other.undo();
+    run(32);
+    EXPECT_LT(room.lightOnFloor(), 0.15 * lit);
+    run(96);
+    EXPECT_LT(room.lightOnFloor(), 0.01 * lit);
+    const auto expected = room.faces();
+    const auto faces = other.faces();
+    EXPECT_TRUE(std::ranges::equal(faces, expected,
+                                   [](const auto& a, const auto& b) { return a.second.words == b.second.words; }));
+}
+
+// A box moves on and on. Memory stays what it was, faces do not get more, and even light stays the same. 10,000 frames
+// with ZVO_TEST_FULL=1.
+TEST(RadianceMoves, NothingGrowsOrDrifts)
+{
+    const std::uint32_t frames = test::isFull() ? 10000 : 1000;
+    Stage stage(32);
+    std::uint64_t bytes = 0;
+    std::size_t faces = 0;
+    for (std::uint32_t frame = 0; frame < frames; ++frame)
+    {
+        stage.moveTo(static_cast<float>(frame % 12));
+        if (frame < 500)
+        {
+            bytes = stage.tracer().cache().bytes();
+            faces = std::max(faces, frame % 50 == 49 ? facesOf(stage.tracer().cache()).size() : 0);
+        }
+    }
+    EXPECT_EQ(stage.tracer().cache().bytes(), bytes);
+    EXPECT_LE(facesOf(stage.tracer().cache()).size(), faces);
+    EXPECT_NEAR(stage.lightBelow(25.0F), 1.0, 0.02);
 }
 
 } // namespace

@@ -205,7 +205,7 @@ TEST(TracePicture, HitsEqualTheReference)
                 if (expected)
                 {
                     ASSERT_EQ(codes.at(hit.index), expected->code);
-                    ASSERT_EQ(hit.t, expected->t);
+                    ASSERT_FLOAT_EQ(hit.t, expected->t); // GPUs do not round quotients correctly
                 }
             }
         }
