@@ -187,7 +187,7 @@ private:
     {
         std::vector<double> voxelize_ms;
         std::vector<double> update_ms;
-        live.updateAndWait(frameTime(animated, row.frame_count - 1));
+        warmUp(m_device, [&] { live.updateAndWait(frameTime(animated, row.frame_count - 1)); });
         for (std::uint32_t frame = 0; frame < row.frame_count; ++frame)
         {
             progress.begin(fmt::format("{} at {}: frame {}", row.scene, row.resolution, frame));

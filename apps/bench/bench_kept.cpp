@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "bench/bench_kept.h"
 
+#include "bench/bench_runs.h"
 #include "bench/bench_scenes.h"
 #include "bench/kept_motion.h"
 #include "bench/lit_scenes.h"
@@ -135,14 +136,14 @@ public:
         TreeTracer tracer(m_device.device());
         tracer.resize(m_width, m_height);
         std::vector<double> ms;
-        for (std::uint32_t run = 0; run < 8; ++run)
+        const auto trace = [&] {
+            return m_device.run([&](vk::FrameGraph& graph)
+                                { tracer.trace(graph, m_scene.tree, m_camera, TraceOptions()); });
+        };
+        warmUp(m_device, trace); // and makes the beam grid
+        for (std::uint32_t run = 0; run < 7; ++run)
         {
-            const std::vector<vk::PassTime> passes = m_device.run(
-                [&](vk::FrameGraph& graph) { tracer.trace(graph, m_scene.tree, m_camera, TraceOptions()); });
-            if (run != 0) // which makes the beam grid
-            {
-                ms.push_back(sumMs(passes));
-            }
+            ms.push_back(sumMs(trace()));
         }
         KeptRow row = rowOf("primary", 1);
         row.frame_ms = medianOf(ms);

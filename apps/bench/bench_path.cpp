@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "bench/bench_path.h"
 
+#include "bench/bench_runs.h"
 #include "bench/bench_scenes.h"
 #include "bench/bench_table.h"
 #include "bench/table.h"
@@ -159,16 +160,19 @@ public:
         };
         std::vector<double> sample_ms;
         std::vector<double> one_kernel_ms;
-        for (std::uint32_t run = 0; run <= m_options.run_count; ++run)
+        warmUp(m_device,
+               [&] // the first samples make kernels, tables and lights
+               {
+                   sampleBy(tracer, nullptr);
+                   sampleBy(in_one_kernel, nullptr);
+               });
+        for (std::uint32_t run = 0; run < m_options.run_count; ++run)
         {
             const std::vector<vk::PassTime> passes = sampleBy(tracer, &lists);
             const std::vector<vk::PassTime> one_kernel_passes = sampleBy(in_one_kernel, nullptr);
-            if (run != 0) // the first one makes kernels, tables and lights
-            {
-                sample_ms.push_back(sumMs(passes));
-                one_kernel_ms.push_back(sumMs(one_kernel_passes));
-                addRays(row, passes, m_device.download(lists), options.bounces);
-            }
+            sample_ms.push_back(sumMs(passes));
+            one_kernel_ms.push_back(sumMs(one_kernel_passes));
+            addRays(row, passes, m_device.download(lists), options.bounces);
         }
         row.sample_ms = Spread::of(sample_ms);
         row.one_kernel_ms = Spread::of(one_kernel_ms);

@@ -27,7 +27,7 @@ bool voxelizesObjects(const std::string& pass)
 BuildRuns measureBuild(vk::HeadlessDevice& device, const GpuScene& scene, const Grid& grid, BuildOptions options,
                        std::uint32_t run_count)
 {
-    options.capacities = buildOctree(device, scene, grid, options).capacities;
+    warmUp(device, [&] { options.capacities = buildOctree(device, scene, grid, options).capacities; });
     BuildRuns runs;
     std::vector<double> voxelize_ms;
     std::vector<double> build_ms;

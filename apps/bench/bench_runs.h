@@ -6,14 +6,29 @@
 #include "core/base/grid.h"
 #include "core/headless/pipeline.h"
 #include "core/upload/gpu_scene.h"
+#include "vk/headless.h"
 #include "vk/timer.h"
 
+#include <chrono>
 #include <cstdint>
 #include <string>
 #include <vector>
 
 namespace zvo::cli
 {
+
+/// For how long GPUs are warmed up: after a pause they raise their clocks within some tenths of a second.
+inline constexpr std::chrono::milliseconds kWarmUp{500};
+
+/// Does work that is measured later: once, and on GPUs until they have run for kWarmUp.
+template <typename Work> void warmUp(vk::HeadlessDevice& device, const Work& work)
+{
+    const auto begin = std::chrono::steady_clock::now();
+    do
+    {
+        work();
+    } while (device.device().report().type != "cpu" && std::chrono::steady_clock::now() - begin < kWarmUp);
+}
 
 /// Adds passes, each divided by run_count, to the sums with the same names. Both stay in order of occurrence.
 void addPasses(std::vector<vk::PassTime>& sums, std::vector<vk::PassTime> passes, std::uint32_t run_count);

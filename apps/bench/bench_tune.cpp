@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "bench/bench_tune.h"
 
+#include "bench/bench_runs.h"
 #include "bench/bench_scenes.h"
 #include "bench/bench_table.h"
 #include "bench/bench_trace.h"
@@ -224,6 +225,7 @@ std::vector<TuneRow> measureChoice(const BenchOptions& options, const Scene& sce
                 {.choice = &choice, .value = value, .ms = {}, .ratio = {}, .is_tables = value.value == tables});
         }
     }
+    warmUp(devices.back()->device(), [&] { devices.back()->measure(choice.tunable); });
     std::vector<std::vector<double>> ms(rows.size());
     std::vector<std::vector<double>> ratios(rows.size());
     for (std::uint32_t run = 0; run < options.run_count; ++run)

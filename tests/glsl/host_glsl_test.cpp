@@ -656,7 +656,7 @@ TEST(HostGlsl, WorldRaysHitWhatEveryVoxelAskedOnItsOwnSays)
                     if (hit)
                     {
                         ASSERT_EQ(oracle::mortonEncode(hit->cell), expected->code) << i;
-                        ASSERT_NEAR(hit->t, expected->t, 1e-6F) << i; // GPUs do not round quotients correctly
+                        ASSERT_NEAR(hit->t, expected->t, 4e-6F) << i; // GPUs do not round quotients correctly
                         ASSERT_EQ(hit->face, expected->face) << i;
                         ASSERT_EQ(hit->level, level) << i;
                     }

@@ -219,7 +219,7 @@ TEST(RowShapes, FollowTheDevice)
         return RowShape::on(chosen.device());
     };
     EXPECT_EQ(shapeOn("cpu", {}), RowShape());
-    EXPECT_EQ(shapeOn("discrete", {}), (RowShape{.block_columns = 32, .strip_lanes = 16}));
+    EXPECT_EQ(shapeOn("discrete", {}), (RowShape{.block_columns = 16, .strip_lanes = 16}));
     EXPECT_EQ(shapeOn("discrete", {{"row-columns", 512}}), (RowShape{.block_columns = 512, .strip_lanes = 16}));
     EXPECT_EQ(shapeOn("cpu", {{"row-columns", 64}}), (RowShape{.block_columns = 64, .strip_lanes = 4}))
         << "fewer threads would list too many blocks each";
