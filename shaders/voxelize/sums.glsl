@@ -6,7 +6,7 @@
 //                           count of fragments is right nevertheless, by which the host sees that they do not fit.
 // SHARED_SUMS_CONSTANT_ID   constant_id of kSharesSums: fragments are added in shared memory first, where neighbouring
 //                           triangles of a dense mesh meet in the same voxels, and the workgroup's sums in the end.
-//                           For GPUs: barriers cost software devices more than that saves.
+//                           For devices whose atomics in memory are slow. Those of an H100 are faster than this.
 
 // SUM_PAIR, SUM_WORD: a pair of words, or a word, of the sums of a voxel.
 #ifdef BOUND

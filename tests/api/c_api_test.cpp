@@ -457,6 +457,7 @@ TEST(CApi, KeptLightIsThatOfTheCppInterface)
     host.frame(
         [&](ZvoRecorder* recorder)
         {
+            host.beginImage();
             EXPECT_EQ(zvoKeptLightUpdateDynamic(light, recorder, dynamic, environment, &camera, &frame), ZVO_OK);
             EXPECT_EQ(
                 zvoTracerTraceKeptDynamic(tracer, recorder, dynamic, environment, light, &camera, &picture, &color),

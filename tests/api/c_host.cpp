@@ -132,7 +132,7 @@ std::vector<std::uint32_t> CEmbeddingHost::picture(const ZvoTree* tree, const Zv
     frame(
         [&](ZvoRecorder* recorder)
         {
-            image.beginCopies(m_commands);
+            beginImage();
             EXPECT_EQ(zvoTracerTrace(tracer, recorder, tree, &camera, trace_info != nullptr ? trace_info : &defaults,
                                      &color, nullptr),
                       ZVO_OK)

@@ -48,6 +48,9 @@ public:
     static constexpr std::uint32_t kWidth = EmbeddingHost::kWidth;
     static constexpr std::uint32_t kHeight = EmbeddingHost::kHeight;
 
+    /// Records in a frame that the image has the layout that targets have.
+    void beginImage() { image.beginCopies(m_commands); }
+
     /// The image in C.
     [[nodiscard]] ZvoImageTarget target() const;
 

@@ -86,21 +86,19 @@ TEST_F(DemoWindow, PathsAddUpWhileNothingChanges)
     EXPECT_EQ(file("shown.png"), file("frame_2.png"));
 }
 
-// Light that is kept on voxels settles from frame to frame, and stays where the picture's size changes.
+// Light that is kept on voxels settles from frame to frame. The first frame is that of the command line, whose later
+// ones look through other points of pixels.
 TEST_F(DemoWindow, KeptLightSettles)
 {
     const std::vector<std::string> common =
         kCube + kCamera + kSize + std::vector<std::string>{"--integrator", "cached"};
-    std::set<std::string> pictures;
+    const std::string first = render(common + std::vector<std::string>{"--settle", "0", "--spp", "1"});
     for (const std::uint32_t frames : {1U, 5U})
     {
         show(common + kSteady +
              std::vector<std::string>{"--frames", std::to_string(frames), "--screenshot", "shown.png", "-f"});
-        EXPECT_EQ(file("shown.png"),
-                  render(common + std::vector<std::string>{"--settle", std::to_string(frames - 1), "--spp", "1"}));
-        pictures.insert(file("shown.png"));
+        EXPECT_TRUE((file("shown.png") == first) == (frames == 1)) << frames;
     }
-    EXPECT_EQ(pictures.size(), 2U);
 }
 
 TEST_F(DemoWindow, ALowerResolutionShowsPixelsOfItsPicture)
