@@ -98,9 +98,9 @@ double totalOf(const std::vector<double>& values)
 class KeptBench
 {
 public:
-    KeptBench(vk::HeadlessDevice& device, const LitScene& scene, std::uint32_t width, std::uint32_t height)
-        : m_device(device), m_scene(scene), m_width(width), m_height(height),
-          m_camera(traceCamera(scene.view, scene.tree.grid, height))
+    KeptBench(vk::HeadlessDevice& device, const LitScene& scene, const BenchOptions& options)
+        : m_device(device), m_scene(scene), m_width(options.path_width), m_height(options.path_height),
+          m_kept({.faces = options.kept_faces}), m_camera(traceCamera(scene.view, scene.tree.grid, m_height))
     {
     }
 
@@ -185,7 +185,7 @@ public:
         const auto addFrame = [&]
         {
             return m_device.run([&](vk::FrameGraph& graph)
-                                { tracer.addFrame(graph, m_scene.tree, m_scene.light, m_camera, {}); });
+                                { tracer.addFrame(graph, m_scene.tree, m_scene.light, m_camera, m_kept); });
         };
         for (const std::uint32_t count : counts)
         {
@@ -279,6 +279,7 @@ private:
     std::uint32_t m_width;
     std::uint32_t m_height;
     std::optional<double> m_noise; // of the reference
+    RadianceOptions m_kept;
     TraceCamera m_camera;
 };
 
@@ -289,7 +290,7 @@ Json keptReportJson(const vk::DeviceReport& device, const BenchOptions& options,
     json["width"] = options.path_width;
     json["height"] = options.path_height;
     json["reference_samples"] = options.reference_samples;
-    json["faces_of_frame"] = RadianceOptions().faces;
+    json["faces_of_frame"] = options.kept_faces;
     json["picture_frames"] = kPictureFrames;
     json["rows"] = Json::array();
     for (const KeptRow& row : rows)
@@ -323,7 +324,7 @@ std::string keptTable(const vk::DeviceReport& device, const BenchOptions& option
         fmt::format("zvo {} on {} ({}, {}). Pictures of {} x {} pixels beside one of {} paths a pixel with another "
                     "seed. Light that is kept is sampled on {} faces a frame.\n\n",
                     ZVO_VERSION_TEXT, device.name, device.type, device.driver, options.path_width, options.path_height,
-                    options.reference_samples, RadianceOptions().faces);
+                    options.reference_samples, options.kept_faces);
     if (!rows.empty())
     {
         text += fmt::format("A picture of it is {} frames behind those that are named; through cones, of the same "
@@ -362,7 +363,7 @@ void benchKept(const BenchOptions& options)
     const auto measureStill = [&](LitScene& scene)
     {
         progress.begin(fmt::format("{} by {}", scene.name, scene.light_name));
-        KeptBench bench(device, scene, options.path_width, options.path_height);
+        KeptBench bench(device, scene, options);
         const HdrImage reference =
             bench.reference(options.reference_samples, [&](std::uint32_t samples)
                             { progress.within(static_cast<double>(samples) / options.reference_samples); });

@@ -157,6 +157,12 @@ CLI::App* addBench(CLI::App& app, BenchOptions& options)
         ->excludes("--path")
         ->excludes("--denoise")
         ->excludes("--passes");
+    addValue(
+        *bench, "--rays", options.kept_faces,
+        [](std::string_view option, std::string_view text)
+        { return static_cast<std::uint32_t>(parseInteger(option, text, 1, kRadianceFacesMax)); },
+        "N", "with --kept, faces that a frame samples at most (default 16384)")
+        ->needs("--kept");
     addDeviceOptions(*bench, options.device);
     bench
         ->add_flag("--tune", options.tune,

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "common/scene_options.h"
+#include "core/radiance/radiance_cache.h"
 #include "io/scene/load_scene.h"
 #include "zvo/tree.h"
 #include "zvo/types.h"
@@ -40,8 +41,9 @@ struct BenchOptions
     bool kept = false;                      // light that is kept on voxels
     bool tune = false;                      // what zvo chooses by device
     std::uint32_t reference_samples = 1024; // a pixel of the picture that they are compared with; with denoise, kept
-    std::vector<std::filesystem::path> environments; // maps; with path
-    std::uint32_t path_width = 640;                  // of the pictures whose rays path and tune measure, and of kept
+    std::uint32_t kept_faces = RadianceOptions().faces; // that a frame of kept light samples at most
+    std::vector<std::filesystem::path> environments;    // maps; with path
+    std::uint32_t path_width = 640;                     // of the pictures whose rays path and tune measure, and of kept
     std::uint32_t path_height = 360;
     TreeStructure structure = TreeStructure::Svo; // of the static part; with dynamic or edit
     std::vector<std::filesystem::path> reports;   // earlier runs' JSON, to be told; empty: measure

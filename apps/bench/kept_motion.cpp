@@ -139,7 +139,7 @@ public:
                                          [&](double done) { progress.within(0.2 + 0.6 * done); });
         const auto stand = [](std::uint32_t) {};
         RadianceTracer standing = tracerOf();
-        result.flicker_still = meanWhere(calm, keepLight(standing, {}, stand));
+        result.flicker_still = meanWhere(calm, keepLight(standing, {.faces = m_options.kept_faces}, stand));
         const HdrImage still = pictureOf(standing);
         const auto errorOf = [&, &near = near](const HdrImage& picture, std::uint32_t frames)
         {
@@ -148,7 +148,8 @@ public:
                                meanWhere(near, relativeErrors(still, picture))};
         };
         result.still = errorOf(still, kLightFrames);
-        const RadianceOptions other = {.seed = 1}; // noise that has nothing to do with that of the still picture
+        const RadianceOptions other = {.faces = m_options.kept_faces,
+                                       .seed = 1}; // noise that has nothing to do with that of the still picture
         RadianceTracer beside = tracerOf();
         keepLight(beside, other, stand);
         result.still.lag = meanWhere(near, relativeErrors(still, pictureOf(beside)));
