@@ -8,8 +8,9 @@
 // Directions are chosen by cells, which divide the map evenly: a cell by an alias table (A. Walker, 1977), in it a
 // direction uniformly by solid angle. There is a table for each of the six normals that faces of voxels have. A cell's
 // weight is its mean luminance times its solid angle times the cosine between its directions and the normal, as a
-// fraction of the heaviest cell's in kWeightBits bits, but at least one step. One kernel rounds it, as others may round
-// in another way. All further numbers are integers, so that probabilities are the weights' shares exactly.
+// fraction of the heaviest cell's in kWeightBits bits, but at least one step. Only light/alias_totals rounds it:
+// another kernel may round the same expression in another way. All further numbers are integers, so that probabilities
+// are the weights' shares exactly.
 //
 // Alias tables are made in parallel (L. Huebschle-Schneider, P. Sanders, Parallel Weighted Random Sampling, 2019). A
 // cell is light if its weight is at most the mean, else heavy. What light cells lack and what heavy cells have too much

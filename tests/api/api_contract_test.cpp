@@ -224,7 +224,8 @@ TEST(ApiContract, AllocationsOfTheDriverMayFailWhileKernelsAreMade)
 
 TEST(ApiContract, WhatIsTooMuchForTheBudgetIsAnErrorThatNamesIt)
 {
-    test::EmbeddingHost host({}, [](ContextInfo& info) { info.memory_budget_bytes = 8 << 20; });
+    test::EmbeddingHost host({},
+                             [](ContextInfo& info) { info.memory_budget_bytes = 8 << 20; }); // GPUs take larger blocks
     const test::HostModel description(test::apiScene());
     const Model model = host.upload(description.info());
     TreeBuild build(host.context, model, {.grid = test::apiGrid(10)});

@@ -171,8 +171,10 @@ TEST(MemoryCallbacks, EveryRequestMayFail)
                 ++failures;
             }
             failed = world.memory.requestCount() > number;
+            // On devices with memory of their own, later requests may do with other blocks that there are.
+            const bool must_throw = number == 0 || device.report().type == "cpu" ? failed : thrown;
+            EXPECT_TRUE(count == 1 || thrown == must_throw);
             EXPECT_TRUE(failed || !thrown);
-            EXPECT_TRUE(count == 1 || number != 0 || thrown); // later ones may do with the blocks that there are
             EXPECT_EQ(device.memory().usedBytes(), 0u);
             EXPECT_EQ(device.memory().heldBytes(), world.memory.liveBytes());
             world.memory.failRequests(UINT64_MAX);

@@ -108,6 +108,8 @@ TEST(Slicing, ByTimeGivesTheSameBytesColdAndWarm)
 {
     const Scene scene = loadGltf(test::ownScene("knot.glb"));
     const Made expected = make(kWhole, scene, 8, {});
+    vk::HeadlessDevice device(test::deviceOptions(), zvoKernels());
+    const bool is_fast = device.device().report().type != "cpu"; // may need less than a millisecond in all
     for (const double ms : {0.01, 1.0, 20.0})
     {
         for (const int rounds : {1, 3})
@@ -115,7 +117,7 @@ TEST(Slicing, ByTimeGivesTheSameBytesColdAndWarm)
             const Made sliced = make({.submission_ms = ms}, scene, 8, {}, rounds);
             EXPECT_EQ(sliced.sha, expected.sha);
             EXPECT_EQ(sliced.image, expected.image);
-            EXPECT_TRUE(sliced.most_submissions > 1 || ms > 0.1) << "a GPU may need less than a millisecond";
+            EXPECT_TRUE(sliced.most_submissions > 1 || (is_fast && ms > 0.1)) << ms;
         }
     }
 }

@@ -114,7 +114,8 @@ void expectIsATable(const Tables& tables, std::uint32_t normal)
     for (std::size_t i = 0; i < count; ++i)
     {
         const double probability = tables.cells[normal * count + i].probability;
-        ASSERT_NEAR(chances[i], probability, 1e-9 + 4e-6 * probability) << i; // thresholds have 24 bits
+        ASSERT_NEAR(chances[i], probability, 1e-9 + 4e-6 * probability)
+            << i; // a heavy cell adds up the rounding of many
         ASSERT_EQ(probability > 0.0, chances[i] > 1e-13) << i;
     }
 }
@@ -186,15 +187,15 @@ TEST(Environment, MakesTablesForMapsOfEverySize)
     }
 }
 
-// In symmetric tables it happens that a light and a heavy cell's stretch begin at the same place: on lavapipe in 1x25,
-// 33x39, 33x53 and 33x57, elsewhere in others.
+// In symmetric tables it happens that a light and a heavy cell's stretch begin at the same place: with lavapipe's
+// rounding in 1x25, 33x39, 33x53 and 33x57. Other drivers meet it in maps of other sizes.
 TEST(Environment, MakesTablesInWhichStretchesBeginTogether)
 {
     for (const std::uint32_t width : {1U, 33U})
     {
         for (std::uint32_t height = 1; height < 64; ++height)
         {
-            SCOPED_TRACE(height);
+            SCOPED_TRACE(std::to_string(width) + " x " + std::to_string(height));
             const HdrImage even = {width, height, std::vector<glm::vec3>(width * height, glm::vec3(1.0F))};
             DeviceEnvironment environment(lightDevice().device(), even, 0.0, 1.0);
             environment.chooseEvenly();
