@@ -237,33 +237,42 @@ private:
     ViewCamera m_view = ViewCamera::lookAt({8.3, 13.0, 12.4}, {8.0, 0.0, 7.0}, 1.2);
 };
 
-// The same story gives the same bytes, on another table.
 TEST(RadianceEdits, AHoleLetsLightInUntilItIsUndone)
 {
     Room room;
-    Room other;
-    const auto run = [&](std::uint32_t frames)
-    {
-        room.run(frames);
-        other.run(frames);
-    };
-    run(64);
+    room.run(64);
     EXPECT_EQ(room.lightOnFloor(), 0.0);
     room.carve();
-    other.carve();
-    run(32);
+    room.run(32);
     const double lit = room.lightOnFloor();
     EXPECT_GT(lit, 0.01);
     room.undo();
-    other.undo();
-    run(32);
+    room.run(32);
     EXPECT_LT(room.lightOnFloor(), 0.15 * lit);
-    run(96);
+    room.run(96);
     EXPECT_LT(room.lightOnFloor(), 0.01 * lit);
-    const auto expected = room.faces();
-    const auto faces = other.faces();
-    EXPECT_TRUE(std::ranges::equal(faces, expected,
-                                   [](const auto& a, const auto& b) { return a.second.words == b.second.words; }));
+}
+
+TEST(RadianceEdits, TheSameEditsLeaveTheSameBytes)
+{
+    const auto tell = []
+    {
+        Room room;
+        room.run(16);
+        room.carve();
+        room.run(16);
+        room.undo();
+        room.run(16);
+        return room.faces();
+    };
+    const auto expected = tell();
+    const auto isSame = [](const auto& a, const auto& b)
+    {
+        const auto& [name, face] = a;
+        return name.cell == b.first.cell && name.normal == b.first.normal && face.words == b.second.words;
+    };
+    EXPECT_GT(expected.size(), 100U);
+    EXPECT_TRUE(std::ranges::equal(tell(), expected, isSame));
 }
 
 // A box moves on and on. Memory stays what it was, faces do not get more, and even light stays the same. 10,000 frames
