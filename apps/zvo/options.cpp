@@ -111,7 +111,7 @@ void addPathOptions(CLI::App& render, RenderOptions& options)
              fmt::format("frames of --integrator cached before the first picture, 0 to {} (default 64)", 1U << 24));
     addValue(render, "--rays", kept.radiance.faces, integer(1, kRadianceFacesMax), "N",
              fmt::format("faces that a frame of --integrator cached samples at most, 1 to {} (default 16384): each "
-                         "takes a ray and a shadow ray",
+                         "takes up to two rays and two shadow rays",
                          kRadianceFacesMax));
     addValue(render, "--aperture", paths.path.lens_radius, parsePositive, "RADIUS",
              "radius of the lens of the camera, in world units (default: a pinhole)");

@@ -29,7 +29,7 @@ struct KeptLightInfo
 /// Options of a frame.
 struct KeptFrameInfo
 {
-    std::uint32_t rays = 1U << 14; // the most faces that get a sample: a ray and a shadow ray each; 1 to 2^22
+    std::uint32_t rays = 1U << 14; // the most faces that get a sample: up to two rays and two shadow rays; 1 to 2^22
     std::uint32_t seed = 0;        // of the random numbers
 };
 

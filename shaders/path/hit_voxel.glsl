@@ -11,11 +11,6 @@ Attribute attributeAt(bool hits, Hit hit)
     return stored;
 }
 
-bool isEmitter(uint voxel)
-{
-    return ((params.emission_words.data[voxel >> 5].x >> (voxel & 31u)) & 1u) != 0u;
-}
-
 vec3 albedoOf(Attribute stored)
 {
     return kFormat == kFormatNone ? kPlainAlbedo : decodeSrgb(unpackUnorm4x8(stored.color).rgb);

@@ -36,6 +36,7 @@ layout(push_constant, scalar) uniform Push
 #include "path/lists.glsl"
 #include "trace/surface.glsl"
 #include "path/hit_voxel.glsl"
+#include "path/emitting_voxel.glsl"
 #include "path/leave.glsl"
 #include "path/next_ray.glsl"
 

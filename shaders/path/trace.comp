@@ -64,6 +64,7 @@ layout(push_constant, scalar) uniform Push
 #include "path/emitter.glsl"
 #include "path/feature_sum.glsl"
 #include "path/hit_voxel.glsl"
+#include "path/emitting_voxel.glsl"
 #include "path/leave.glsl"
 #include "path/map_light.glsl"
 #include "path/miss.glsl"

@@ -36,6 +36,7 @@ layout(push_constant, scalar) uniform Push
 #include "radiance/insert_face.glsl"
 #include "radiance/kept_light.glsl"
 #include "radiance/list_brick.glsl"
+#include "radiance/list_chosen.glsl"
 
 void main()
 {
@@ -63,15 +64,5 @@ void main()
     }
 
     listBrick(cell, face_normal, 1u, exists);
-    bool in_map = seeksMapLight(next);
-    uint map_light = appendTo(0u, kListMapLights, in_map);
-    if (in_map)
-        params.numbers.data[kListMapLights * params.batch + map_light] = path;
-    if (kEmission)
-    {
-        bool in_voxels = seeksVoxelLight(next);
-        uint voxel_light = appendTo(0u, kListVoxelLights, in_voxels);
-        if (in_voxels)
-            params.numbers.data[kListVoxelLights * params.batch + voxel_light] = path;
-    }
+    listChosen(next, path, 0u);
 }

@@ -1,7 +1,7 @@
 #version 460
 // SPDX-License-Identifier: MIT
 // Adds the light that the faces reflect which paths have hit, and wants these faces in the next frame. Paths that have
-// met other light are listed.
+// met other light are listed, and those that have hit a face without light.
 #extension GL_GOOGLE_include_directive : require
 #include "radiance/radiance.h"
 #include "lib/attribute_formats.glsl"
@@ -9,12 +9,13 @@
 #include "lib/color.glsl"
 #include "lib/dispatch.glsl"
 #include "lib/hit.glsl"
-#include "lib/ray_words.glsl"
 #include "lib/surface_normal.glsl"
 #include "path/face.glsl"
+#include "path/state.glsl"
 
 layout(constant_id = 0) const uint kFormat = kFormat8; // of attributes
 layout(constant_id = 1) const bool kEmission = false;  // there are emissive voxels
+layout(constant_id = 2) const bool kEnds = false;      // the second rays of paths, with which these end
 
 layout(local_size_x = kRadianceGroup) in;
 layout(push_constant, scalar) uniform Push
@@ -28,47 +29,66 @@ layout(push_constant, scalar) uniform Push
 const uint kNodeLevels = 0u; // no hit is a node's
 #include "trace/surface.glsl"
 #include "path/hit_voxel.glsl"
+#include "path/emitting_voxel.glsl"
 #include "path/lists.glsl"
 #include "radiance/face_key.glsl"
 #include "radiance/face_table.glsl"
 #include "radiance/hit_loads.glsl"
 #include "radiance/kept_light.glsl"
 #include "radiance/insert_face.glsl"
+#include "radiance/light_of_neighbors.glsl"
 #include "radiance/want_face.glsl"
 
 void main()
 {
     uint i = threadIndex();
-    uint count = listLength(0u, kListPaths);
+    uint ray = kEnds ? 1u : 0u;
+    uint count = listLength(ray, kListPaths);
     bool exists = i < count;
     i = min(i, count - 1u);
     Hit hit = hitAt(i);
     bool hits = exists && !isMiss(hit);
 
-    uint miss = appendTo(0u, kListMisses, exists && !hits);
+    uint miss = appendTo(ray, kListMisses, exists && !hits);
     if (exists && !hits)
         params.numbers.data[kListMisses * params.batch + miss] = i;
     if (kEmission)
     {
         bool emits = hits && isEmitter(hits ? hit.index : 0u);
-        uint emitter = appendTo(0u, kListEmitters, emits);
+        uint emitter = appendTo(ray, kListEmitters, emits);
         if (emits)
             params.numbers.data[kListEmitters * params.batch + emitter] = i;
     }
 
-    if (hits && hit.index >= params.first_moving)
+    if (!kEnds && hits && hit.index >= params.first_moving)
         params.numbers.data[i] |= kPathTouched; // of kListPaths, the first list
 
     uint slot = kNoFace;
+    bool is_lit = true;
     if (hits && hitFace(hit) != kFaceInside)
     {
         uint normal = normalOfHit(hitFace(hit), loadRay(params.rays, i).inverse_direction);
         slot = insertFace(hitCell(hit), normal, 0u);
+        uint recent = 0u;
         if (slot != kNoFace)
+            recent = loadFaceState(slot).recent;
+        is_lit = recent != 0u || (slot != kNoFace && keptWeight(loadFace(slot).light) != 0u);
+        vec3 light = recentRadiance(recent);
+        if (kEnds && !is_lit)
+            light = lightOfNeighbors(hitCell(hit), normal, is_lit);
+        if (is_lit)
         {
-            FaceState state = loadFaceState(slot);
-            params.radiance.data[i] = albedoOf(attributeAt(true, hit)) * recentRadiance(state.recent);
+            PathState state = PathState(vec3(1.0), i, 0u, 0u, 0.0, vec3(0.0));
+            if (kEnds)
+                state = loadState(params.path_states, i);
+            params.radiance.data[state.slot] += state.throughput * albedoOf(attributeAt(true, hit)) * light;
         }
     }
     wantFace(slot, 0u, wantedList(params.frame + 1u));
+    if (!kEnds)
+    {
+        uint unlit = appendTo(kUnlitPaths, kListPaths, !is_lit);
+        if (!is_lit)
+            params.unlit.data[unlit] = i;
+    }
 }

@@ -23,14 +23,19 @@
 // outside of the grid, or what the face that it hits reflects of the light that is kept there; and a light that is
 // chosen, with a shadow ray to it (path/path.h). So light of one more bounce arrives with each frame.
 //
+// A face that has had no sample keeps no light. A path that hits one takes the light of the faces beside it, in the
+// same plane, if they have had any; else it goes on by a second ray and a second light. If it took no light, samples
+// would be too dark until all faces have had some, and means would keep that for long.
+//
 //   radiance/want      faces that the camera sees: into the table, and into the frame's list
 //   radiance/tally     counts the faces of the list by their rank; its last threads find the rank that the budget ends
 //   radiance/take      lists the faces of a lower rank
 //   radiance/begin     a path from each of them; the brick of level 1 around it: into table and list
 //   radiance/surround  the bricks of a level around those of the one before that are listed: likewise
+//     path/map_light, path/voxel_light, trace/rays, path/connect      light that was chosen
 //     trace/rays, radiance/gather            what the paths hit, and the light that is kept there
 //     path/miss, path/emitter                light that they have met
-//     path/map_light, path/voxel_light, trace/rays, path/connect      light that was chosen
+//   radiance/extend    paths that have hit a face without light; for their second rays, the same passes again
 //   radiance/apply     adds the samples to the means of faces, and to the sums of bricks of level 1
 //   radiance/fold      adds the sums to the means of bricks of a level, and to the sums of the next level
 //   radiance/purge     into another table, without faces that no ray has hit for long; only while something moves
@@ -108,11 +113,12 @@ const uint kFaceListed = 1u << 31; // in the frame's list, or the next frame's
 const uint kFaceSeen = 1u << 30;   // by the camera, since it was listed
 const uint kFaceMoved = 1u << 29;  // what moves matters for its light
 
-// Elements of PathBatch::lists, as bounces: of paths, then of the faces of even and odd frames, then of the bricks of
-// each level, in kListPaths.
-const uint kWantedEven = 1u;
-const uint kWantedOdd = 2u;
-const uint kFirstBricks = 3u;
+// Elements of PathBatch::lists, as bounces: of the first and the second rays of paths, then of paths that have hit a
+// face without light, then of the faces of even and odd frames, then of the bricks of each level, in kListPaths.
+const uint kUnlitPaths = 2u;
+const uint kWantedEven = 3u;
+const uint kWantedOdd = 4u;
+const uint kFirstBricks = 5u;
 
 // Faces are ranked by a random number, less for those with few samples and those that the camera sees, in steps of a
 // 32nd of it. A frame takes all ranks below a limit.
@@ -148,10 +154,11 @@ struct RadianceWantParams // push constants of radiance/want: a workgroup for ea
     uint width;
     uint height;
     uint run_count;
-    uint frame; // one pixel of each 2x2 takes part, in turns
+    uint frame; // some pixels of each 2x2 take part, in turns
 };
 GPU_KERNEL_BEGIN(radiance, want, Want, RadianceWantParams)
     GPU_CONSTANT(bool, orthographic, false)
+    GPU_CONSTANT(uint, turns, 1u) // pixels of each 2x2 that take part: 1 to 4
 GPU_KERNEL_END
 
 struct RadianceTallyParams // push constants of radiance/tally: a thread a listed face
@@ -226,13 +233,42 @@ struct RadianceGatherParams // push constants of radiance/gather: a thread a pat
     GPU_CONST_PTR(uvec2) emission_words; // kEmission only
     GPU_CONST_PTR(Ray) rays;
     GPU_CONST_PTR(Hit) hits;
+    GPU_CONST_PTR(PathState) path_states; // kEnds only
     GPU_PTR(vec3) radiance;
+    GPU_PTR(uint) unlit; // [batch] unless kEnds: paths that have hit a face without light
     uint batch;
     uint run_count;
     uint frame;
     uint first_moving; // index of attributes from which on voxels are those of overlays; kHitMiss: none
 };
 GPU_KERNEL_BEGIN(radiance, gather, Gather, RadianceGatherParams)
+    GPU_CONSTANT(AttributeFormat, format, kFormat8)
+    GPU_CONSTANT(bool, emission, false)
+    GPU_CONSTANT(bool, ends, false)
+GPU_KERNEL_END
+
+struct RadianceExtendParams // push constants of radiance/extend: a thread a path that has hit a face without light
+{
+    GPU_CONST_PTR(KeptFace) faces;
+    GPU_CONST_PTR(FaceState) states;
+    GPU_CONST_PTR(Attribute) attributes; // of voxels, in the format of kFormat
+    GPU_CONST_PTR(Hit) hits;
+    GPU_CONST_PTR(vec2) gives;            // [kNormals] as Environment::gives
+    GPU_CONST_PTR(LightNode) light_nodes; // kEmission only
+    GPU_CONST_PTR(Ray) rays;
+    GPU_CONST_PTR(PathState) path_states;
+    GPU_PTR(Ray) next_rays;
+    GPU_PTR(PathState) next_states;
+    GPU_PTR(DispatchArgs) lists;
+    GPU_PTR(uint) numbers;
+    GPU_CONST_PTR(uint) unlit;
+    GPU_PTR(vec3) radiance;
+    uint batch;
+    uint run_count;
+    uint sample_index;
+};
+GPU_KERNEL_BEGIN(radiance, extend, Extend, RadianceExtendParams)
+    GPU_CONSTANT(uint, node_levels, 5u)
     GPU_CONSTANT(AttributeFormat, format, kFormat8)
     GPU_CONSTANT(bool, emission, false)
 GPU_KERNEL_END

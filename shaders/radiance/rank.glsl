@@ -2,7 +2,7 @@
 // The ranks of faces (radiance.h). The includer includes radiance/radiance.h, lib/sobol.glsl and
 // radiance/kept_light.glsl before.
 
-const float kSeenShare = 4.0;   // a face that the camera sees is taken so much more often than others
+const float kSeenShare = 8.0;   // a face that the camera sees is taken so much more often than others
 const float kFreshShare = 64.0; // one without samples, than one with as many or more
 
 // The rank of a face in a frame: it does not depend on the slot.

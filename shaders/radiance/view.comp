@@ -32,6 +32,7 @@ layout(push_constant, scalar) uniform Push
 #define HITS_BINDING 1
 #include "trace/surface.glsl"
 #include "path/hit_voxel.glsl"
+#include "path/emitting_voxel.glsl"
 #include "path/lists.glsl"
 #include "radiance/face_key.glsl"
 #include "radiance/face_table.glsl"

@@ -1,6 +1,7 @@
 #version 460
 // SPDX-License-Identifier: MIT
-// Lists the faces that the camera sees, a workgroup for each live tile. Of each 2x2 pixels one takes part in a frame.
+// Lists the faces that the camera sees, a workgroup for each live tile. Of each 2x2 pixels some take part in a
+// frame, others in the next.
 #extension GL_GOOGLE_include_directive : require
 #include "radiance/radiance.h"
 #include "lib/bound.glsl"
@@ -10,6 +11,7 @@
 #include "path/face.glsl"
 
 layout(constant_id = 0) const bool kOrthographic = false;
+layout(constant_id = 1) const uint kTurns = 1u; // pixels of each 2x2 that take part
 
 layout(local_size_x = kTilePixels / 4u) in;
 layout(push_constant, scalar) uniform Push
@@ -27,13 +29,10 @@ layout(push_constant, scalar) uniform Push
 #include "radiance/insert_face.glsl"
 #include "radiance/want_face.glsl"
 
-void main()
+// Lists the face that a pixel sees, if it exists.
+void wantSeen(uvec2 pixel, bool exists)
 {
     uvec2 size = uvec2(params.width, params.height);
-    uvec2 tile = params.live.data[workgroupIndex()];
-    bool exists = tile.x != kNoTile;
-    uvec2 pixel = kTileEdge * unpackTile(exists ? tile.x : 0u) + 2u * pixelInTile(gl_LocalInvocationIndex) +
-                  uvec2(params.frame & 1u, (params.frame >> 1) & 1u);
     exists = exists && all(lessThan(pixel, size));
     pixel = exists ? pixel : uvec2(0u);
     Hit hit = hitAt(exists ? pixel.y * size.x + pixel.x : 0u);
@@ -45,4 +44,16 @@ void main()
     if (exists)
         slot = insertFace(hitCell(hit), normalOfHit(hitFace(hit), direction), 0u);
     wantFace(slot, kFaceSeen, wantedList(params.frame));
+}
+
+void main()
+{
+    uvec2 tile = params.live.data[workgroupIndex()];
+    bool exists = tile.x != kNoTile;
+    uvec2 corner = kTileEdge * unpackTile(exists ? tile.x : 0u) + 2u * pixelInTile(gl_LocalInvocationIndex);
+    for (uint turn = 0u; turn < kTurns; ++turn)
+    {
+        uint place = params.frame + turn;
+        wantSeen(corner + uvec2(place & 1u, (place >> 1) & 1u), exists);
+    }
 }

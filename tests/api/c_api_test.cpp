@@ -429,7 +429,7 @@ TEST(CApi, KeptLightIsThatOfTheCppInterface)
             EXPECT_EQ(zvoKeptLightUpdate(light, recorder, tree, environment, &camera, &frame), ZVO_OK);
             frame.rays = 0;
             EXPECT_EQ(zvoKeptLightUpdate(light, recorder, tree, environment, &camera, &frame), ZVO_ERROR_USAGE);
-            frame.rays = 1000;
+            frame.rays = 4000;
         });
     const std::uint64_t still = faceCount();
     EXPECT_GT(still, 20U);

@@ -21,6 +21,9 @@ constexpr std::uint32_t kPurgeAge = 256;
 constexpr std::uint32_t kChangedSamples = 16;
 constexpr std::uint32_t kChangedFrames = 32;
 
+// The rays of a path, at most: a second one where the first has hit a face without light.
+constexpr std::uint32_t kFaceRays = 2;
+
 constexpr const char* kPurpose = "light on voxels";
 
 // Faces that rays find of a voxel, at most: most surfaces show one or two.
@@ -35,10 +38,18 @@ std::uint64_t runsFor(double face_count)
     return static_cast<std::uint64_t>(slots) / gpu::kFaceRun + 1;
 }
 
-// The pixels that radiance/want takes in a frame, at most: one of each 2x2.
-std::uint64_t wantingPixels(std::uint32_t width, std::uint32_t height)
+// How many pixels of each 2x2 list their face in a frame: the camera lists about as many faces as a frame may take, or
+// one for each 2x2 where that is more.
+std::uint32_t wantingTurns(std::uint32_t width, std::uint32_t height, std::uint32_t faces)
 {
-    return divideUp(width, 2U) * std::uint64_t{divideUp(height, 2U)};
+    const std::uint64_t quads = divideUp(width, 2U) * std::uint64_t{divideUp(height, 2U)};
+    return static_cast<std::uint32_t>(std::clamp<std::uint64_t>(faces / std::max<std::uint64_t>(quads, 1), 1, 4));
+}
+
+// The pixels that it takes, at most.
+std::uint64_t wantingPixels(std::uint32_t width, std::uint32_t height, std::uint32_t faces)
+{
+    return divideUp(width, 2U) * std::uint64_t{divideUp(height, 2U)} * wantingTurns(width, height, faces);
 }
 
 // Whether a frame is one of the `count` ones from `since` on.
@@ -74,23 +85,25 @@ RadianceCache::Frame::Frame(vk::Device& device, std::uint32_t frame_faces, std::
     : faces(frame_faces), width(picture_width), height(picture_height)
 {
     // The camera lists as many faces as pixels want one, and the paths of a frame as many as there are.
-    const std::uint64_t wanted_max = faces + wantingPixels(width, height);
+    const std::uint64_t wanted_max = kFaceRays * std::uint64_t{faces} + wantingPixels(width, height, faces);
     const std::uint64_t brick_count = gpu::kBrickLevels * std::uint64_t{faces};
-    device.memory().require(PathBatch::bytesFor(faces, 1) + 2 * wanted_max * sizeof(gpu::uint) +
+    device.memory().require(PathBatch::bytesFor(faces, kFaceRays) + faces * sizeof(gpu::uint) +
+                                2 * wanted_max * sizeof(gpu::uint) +
                                 brick_count * (sizeof(gpu::uint) + sizeof(gpu::BrickSum)),
                             kPurpose);
     for (vk::BufferOf<gpu::uint>& slots : wanted)
     {
         slots = {device, "radiance/wanted", wanted_max};
     }
-    batch = {device, faces, 1, gpu::kFirstBricks + gpu::kBrickLevels};
+    batch = {device, faces, kFaceRays, gpu::kFirstBricks + gpu::kBrickLevels};
+    unlit = {device, "radiance/unlit", faces};
     bricks = {device, "radiance/bricks", brick_count};
     sums = {device, "radiance/brick_sums", brick_count};
 }
 
 std::uint64_t RadianceCache::Frame::bytes() const
 {
-    return wanted[0].bytes() + wanted[1].bytes() + batch.bytes() + bricks.bytes() + sums.bytes();
+    return wanted[0].bytes() + wanted[1].bytes() + batch.bytes() + unlit.bytes() + bricks.bytes() + sums.bytes();
 }
 
 std::uint64_t RadianceCache::bytes() const
@@ -152,7 +165,7 @@ void RadianceCache::clear(vk::FrameGraph& graph, std::uint32_t frame)
         graph.fill(m_buffers->sums, 0);
         return;
     }
-    graph.fill(batch.lists, 0, 0, kWords);
+    graph.fill(batch.lists, 0, 0, gpu::kWantedEven * kWords);
     graph.fill(batch.lists, 0, wantedList(frame + 1) * kWords, kWords);
     graph.fill(batch.lists, 0, gpu::kFirstBricks * kWords, gpu::kBrickLevels * kWords);
     graph.fill(m_table->counters, 0, gpu::kCountersOfFrame,
@@ -263,18 +276,25 @@ void RadianceCache::update(vk::FrameGraph& graph, const DeviceTree& tree, Device
     {
         surround(graph, level);
     }
-    const PathLight light = {.tree = tree,
-                             .environment = environment,
-                             .lights = m_lights,
-                             .status = m_status,
-                             .stack = options.stack,
-                             .sample_index = work.frame,
-                             .path_count = m_buffers->faces,
-                             .first_noted = work.firstMoving()};
-    tracePaths(graph, light, m_buffers->batch, 0, 0);
-    gather(graph, work);
-    addMetLight(graph, light, m_buffers->batch, 0, 0);
-    addChosenLight(graph, light, m_buffers->batch, 0, 0);
+    for (std::uint32_t ray = 0; ray < kFaceRays; ++ray)
+    {
+        if (ray != 0)
+        {
+            extend(graph, work);
+        }
+        const PathLight light = {.tree = tree,
+                                 .environment = environment,
+                                 .lights = m_lights,
+                                 .status = m_status,
+                                 .stack = options.stack,
+                                 .sample_index = work.frame,
+                                 .path_count = m_buffers->faces,
+                                 .first_noted = ray == 0 ? work.firstMoving() : std::nullopt};
+        addChosenLight(graph, light, m_buffers->batch, ray, ray);
+        tracePaths(graph, light, m_buffers->batch, ray, ray);
+        gather(graph, work, ray);
+        addMetLight(graph, light, m_buffers->batch, ray, ray);
+    }
     apply(graph, work);
     for (std::uint32_t level = 1; level <= gpu::kBrickLevels; ++level)
     {
@@ -285,7 +305,9 @@ void RadianceCache::update(vk::FrameGraph& graph, const DeviceTree& tree, Device
 
 void RadianceCache::want(vk::FrameGraph& graph, const Work& work)
 {
-    vk::Pass pass = graph.addPass(gpu::radiance::Want{.orthographic = work.camera.orthographic});
+    vk::Pass pass =
+        graph.addPass(gpu::radiance::Want{.orthographic = work.camera.orthographic,
+                                          .turns = wantingTurns(work.seen.width, work.seen.height, m_buffers->faces)});
     gpu::RadianceWantParams params{};
     params.faces = pass.readWrite(m_table->faces);
     params.states = pass.readWrite(m_table->states);
@@ -381,11 +403,13 @@ void RadianceCache::surround(vk::FrameGraph& graph, std::uint32_t level)
                           divideUp(m_buffers->faces, gpu::kPathGroup));
 }
 
-void RadianceCache::gather(vk::FrameGraph& graph, const Work& work)
+// ray: of the paths, 0 or 1.
+void RadianceCache::gather(vk::FrameGraph& graph, const Work& work, std::uint32_t ray)
 {
     PathBatch& batch = m_buffers->batch;
     const bool emits = hasEmission(work.tree);
-    vk::Pass pass = graph.addPass(gpu::radiance::Gather{.format = work.tree.attributeFormat(), .emission = emits});
+    vk::Pass pass = graph.addPass(
+        gpu::radiance::Gather{.format = work.tree.attributeFormat(), .emission = emits, .ends = ray != 0});
     gpu::RadianceGatherParams params{};
     params.faces = pass.readWrite(m_table->faces);
     params.states = pass.readWrite(m_table->states);
@@ -398,14 +422,53 @@ void RadianceCache::gather(vk::FrameGraph& graph, const Work& work)
     {
         params.emission_words = pass.read(work.tree.emission_words);
     }
-    params.rays = pass.read(batch.rays[0]);
+    params.rays = pass.read(batch.rays.at(ray));
     params.hits = pass.read(batch.hits);
+    if (ray == 0)
+    {
+        params.unlit = pass.readWrite(m_buffers->unlit);
+    }
+    else
+    {
+        params.path_states = pass.read(batch.states.at(ray));
+    }
     params.radiance = pass.readWrite(batch.radiance);
     params.batch = static_cast<std::uint32_t>(batch.capacity());
     params.run_count = m_table->run_count;
     params.frame = work.frame;
     params.first_moving = work.firstMoving().value_or(gpu::kHitMiss);
-    pass.dispatchIndirect(batch.lists, listArgs(0, gpu::kListPaths), params,
+    pass.dispatchIndirect(batch.lists, listArgs(ray, gpu::kListPaths), params,
+                          divideUp(m_buffers->faces, gpu::kPathGroup));
+}
+
+void RadianceCache::extend(vk::FrameGraph& graph, const Work& work)
+{
+    PathBatch& batch = m_buffers->batch;
+    const bool emits = hasEmission(work.tree);
+    vk::Pass pass = graph.addPass(gpu::radiance::Extend{
+        .node_levels = work.tree.grid.nodeLevels(), .format = work.tree.attributeFormat(), .emission = emits});
+    gpu::RadianceExtendParams params{};
+    params.faces = pass.read(m_table->faces);
+    params.states = pass.read(m_table->states);
+    params.attributes = readVoxelAttributes(pass, work.tree);
+    params.hits = pass.read(batch.hits);
+    params.gives = pass.read(work.environment.gives());
+    if (emits)
+    {
+        params.light_nodes = pass.read(m_lights.nodes());
+    }
+    params.rays = pass.read(batch.rays[0]);
+    params.path_states = pass.read(batch.states[0]);
+    params.next_rays = pass.readWrite(batch.rays[1]);
+    params.next_states = pass.readWrite(batch.states[1]);
+    params.lists = pass.readWrite(batch.lists);
+    params.numbers = pass.readWrite(batch.numbers);
+    params.unlit = pass.read(m_buffers->unlit);
+    params.radiance = pass.readWrite(batch.radiance);
+    params.batch = static_cast<std::uint32_t>(batch.capacity());
+    params.run_count = m_table->run_count;
+    params.sample_index = work.frame;
+    pass.dispatchIndirect(batch.lists, listArgs(gpu::kUnlitPaths, gpu::kListPaths), params,
                           divideUp(m_buffers->faces, gpu::kPathGroup));
 }
 

@@ -22,7 +22,7 @@ namespace zvo
 /// Options of the light that is kept on voxels.
 struct RadianceOptions
 {
-    std::uint32_t faces = 1U << 14;             // the most that a frame takes: each takes a ray and a shadow ray
+    std::uint32_t faces = 1U << 14;             // the most that a frame takes, by up to two rays and two shadow rays
     std::uint32_t window = gpu::kKeptWeightMax; // the most samples that a mean counts
     std::uint32_t seed = 0;
     std::optional<TraceStack> stack = std::nullopt; // as in TraceOptions
@@ -108,6 +108,7 @@ private:
         std::uint32_t height;
         std::array<vk::BufferOf<gpu::uint>, 2> wanted; // slots of even and odd frames
         PathBatch batch;
+        vk::BufferOf<gpu::uint> unlit;    // [faces] paths that have hit a face of which no light is known
         vk::BufferOf<gpu::uint> bricks;   // [kBrickLevels][faces] slots of those that are listed
         vk::BufferOf<gpu::BrickSum> sums; // [kBrickLevels][faces] of them; 0 between frames
     };
@@ -121,7 +122,8 @@ private:
     void tally(vk::FrameGraph& graph, const Work& work);
     void take(vk::FrameGraph& graph, const Work& work);
     void begin(vk::FrameGraph& graph, const Work& work);
-    void gather(vk::FrameGraph& graph, const Work& work);
+    void gather(vk::FrameGraph& graph, const Work& work, std::uint32_t ray);
+    void extend(vk::FrameGraph& graph, const Work& work);
     void apply(vk::FrameGraph& graph, const Work& work);
     void surround(vk::FrameGraph& graph, std::uint32_t level);
     void fold(vk::FrameGraph& graph, const Work& work, std::uint32_t level);

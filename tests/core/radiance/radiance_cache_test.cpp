@@ -115,6 +115,16 @@ TEST(RadiancePictures, AreSmoothAfterFewFrames)
     EXPECT_LT(relativeError(picture, truth), 0.04);
 }
 
+// Light that many bounces bring is there after few frames, in which most faces have had no sample yet.
+TEST(RadiancePictures, AreNotDarkAtFirst)
+{
+    Hall hall;
+    const PathPicture truth = pictureOf(hall.tree, hall.dark, hall.view, 40, 512, {.bounces = 10});
+    RadianceTracer tracer(device().device());
+    const PathPicture picture = settledPicture(tracer, hall.tree, hall.dark, hall.view, 40, 4, 4, {.faces = 400});
+    EXPECT_NEAR(picture.luminance, truth.luminance, 0.2 * truth.luminance);
+}
+
 // What the camera sees for the first time has the light of the bricks around it, though a frame samples one face only.
 TEST(RadiancePictures, ShowNewFacesLit)
 {

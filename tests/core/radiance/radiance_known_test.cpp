@@ -104,6 +104,32 @@ TEST(RadianceFurnace, AGlowingRoomHasTheLightOfAllBounces)
     EXPECT_NEAR(picture.luminance, expected, 0.005 * expected);
 }
 
+// In the first frame no face keeps light that others could reflect. A path that hits one goes on, so light of two bounces
+// arrives.
+TEST(RadianceFurnace, TheFirstFrameHasTwoBounces)
+{
+    const LitVoxel wall = {{}, glm::uvec3(188), glm::vec3(0.5F)};
+    const DeviceTree tree = test::litTree(device(), test::roomOf(wall, 32), 5);
+    DeviceEnvironment dark = constantSky(glm::vec3(0.0F));
+    const ViewCamera inside = ViewCamera::lookAt({16.2, 16.1, 16.3}, {1.0, 2.0, 3.0}, 1.5);
+    RadianceTracer tracer(device().device());
+    tracer.resize(128, 128);
+    runFrames(tracer, tree, dark, inside, 1, {});
+    double mean = 0.0;
+    std::uint32_t count = 0;
+    for (const auto& [name, face] : facesOf(tracer.cache()))
+    {
+        if (face.samples != 0)
+        {
+            mean += face.radiance.r;
+            ++count;
+        }
+    }
+    ASSERT_GT(count, 500U);
+    const double expected = 0.5 * (1.0 + test::albedoOf(wall).r);
+    EXPECT_NEAR(mean / count, expected, 0.02 * expected);
+}
+
 // A wall of one voxel keeps all light of a lamp behind it, on its faces and in the picture.
 TEST(RadianceWalls, NoLightComesThrough)
 {

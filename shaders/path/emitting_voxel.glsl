@@ -1,0 +1,7 @@
+// SPDX-License-Identifier: MIT
+// Which voxels emit light. The includer declares params with emission_words before.
+
+bool isEmitter(uint voxel)
+{
+    return ((params.emission_words.data[voxel >> 5].x >> (voxel & 31u)) & 1u) != 0u;
+}

@@ -1,0 +1,70 @@
+#version 460
+// SPDX-License-Identifier: MIT
+// Takes paths that have hit a face without light: adds what the faces around it reflect, or goes on by one more ray.
+#extension GL_GOOGLE_include_directive : require
+#include "radiance/radiance.h"
+#include "lib/attribute_formats.glsl"
+#include "lib/bound.glsl"
+#include "lib/color.glsl"
+#include "lib/dispatch.glsl"
+#include "lib/frame.glsl"
+#include "lib/hit.glsl"
+#include "lib/morton.glsl"
+#include "lib/node.glsl"
+#include "lib/ray.glsl"
+#include "lib/sobol.glsl"
+#include "lib/surface_normal.glsl"
+#include "path/face.glsl"
+#include "path/numbers.glsl"
+#include "path/state.glsl"
+
+layout(constant_id = 0) const uint kNodeLevels = 5u;
+layout(constant_id = 1) const uint kFormat = kFormat8; // of attributes
+layout(constant_id = 2) const bool kEmission = false;  // there are emissive voxels
+
+layout(local_size_x = kRadianceGroup) in;
+layout(push_constant, scalar) uniform Push
+{
+    RadianceExtendParams params;
+};
+
+#define FACES_BINDING 0
+#define STATES_BINDING 1
+const bool kRoulette = false;
+#define LIGHT_NODES params.light_nodes
+#include "light/importance.glsl"
+#include "path/lists.glsl"
+#include "trace/surface.glsl"
+#include "path/hit_voxel.glsl"
+#include "path/leave.glsl"
+#include "path/next_ray.glsl"
+#include "radiance/face_key.glsl"
+#include "radiance/face_table.glsl"
+#include "radiance/kept_light.glsl"
+#include "radiance/light_of_neighbors.glsl"
+#include "radiance/list_chosen.glsl"
+
+void main()
+{
+    uint unlit = threadIndex();
+    uint count = listLength(kUnlitPaths, kListPaths);
+    bool exists = unlit < count;
+    uint i = params.unlit.data[min(unlit, count - 1u)];
+    PathState state = loadState(params.path_states, i);
+    Ray ray = loadRay(params.rays, i);
+    Hit hit = loadHit(params.hits, i);
+    Attribute stored = attributeAt(exists, hit);
+    bool is_lit;
+    vec3 light = lightOfNeighbors(hitCell(hit), normalOfHit(hitFace(hit), ray.inverse_direction), is_lit);
+    if (exists && is_lit)
+        params.radiance.data[state.slot] += state.throughput * albedoOf(stored) * light;
+
+    NextRay next = nextRay(state, ray, exists && !is_lit, hit, stored, 1u);
+    uint path = appendTo(1u, kListPaths, next.exists);
+    if (next.exists)
+    {
+        storeRay(params.next_rays, path, next.ray);
+        storeState(params.next_states, path, next.state);
+    }
+    listChosen(next, path, 1u);
+}
