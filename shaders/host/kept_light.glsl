@@ -20,6 +20,7 @@ FaceTable params;
 #include "radiance/face_table.glsl"
 #include "radiance/kept_light.glsl"
 #include "radiance/light_of_brick.glsl"
+#include "radiance/plane.glsl"
 
 const uint kPointRaysMax = 256u;         // rays of a point: all of their iterations are one invocation's
 const uint kSettledSamples = 8u;         // from which on a face's light counts in full where it is mixed with others'
@@ -59,17 +60,10 @@ void addFace(ivec3 cell, uint normal, float share, inout FaceSum sum)
 // place, from the middle of the cell. towards: 1; -1: the cells on the other side.
 void addPlane(ivec3 cell, uint normal, vec3 offset, int towards, float share, inout FaceSum sum)
 {
-    uint axis = normal % 3u;
-    vec2 across = axis == 0u ? offset.yz : axis == 1u ? offset.xz : offset.xy;
-    ivec2 side = towards * ivec2(across.x < 0.0 ? -1 : 1, across.y < 0.0 ? -1 : 1);
-    across = abs(across);
     for (uint k = 0u; k < 4u; ++k)
     {
-        bvec2 far = bvec2((k & 1u) != 0u, (k & 2u) != 0u);
-        ivec2 shift = ivec2(far.x ? side.x : 0, far.y ? side.y : 0);
-        ivec3 moved = axis == 0u ? ivec3(0, shift) : axis == 1u ? ivec3(shift.x, 0, shift.y) : ivec3(shift, 0);
-        vec2 part = vec2(far.x ? across.x : 1.0 - across.x, far.y ? across.y : 1.0 - across.y);
-        addFace(cell + moved, normal, share * part.x * part.y, sum);
+        NearFace near = nearFace(k, normal, offset, towards);
+        addFace(cell + near.steps, normal, share * near.share, sum);
     }
 }
 

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: MIT
+// The plane of a face, in which faces with the same normal lie side by side.
+
+// A step to another face of the plane, along its two axes in the order x, y, z.
+ivec3 stepInPlane(uint normal, ivec2 steps)
+{
+    uint axis = normal % 3u;
+    return axis == 0u ? ivec3(0, steps) : axis == 1u ? ivec3(steps.x, 0, steps.y) : ivec3(steps, 0);
+}
+
+// One of the four faces of a plane whose middles are around a place.
+struct NearFace
+{
+    ivec3 steps; // from the cell of the face that the place is on
+    float share; // of the light at the place; those of the four add up to 1
+};
+
+// k: 0 to 3; 0 is the face that the place is on. offset: of the place, from the middle of the cell. towards: 1;
+// -1: the faces on the other sides of that face.
+NearFace nearFace(uint k, uint normal, vec3 offset, int towards)
+{
+    uint axis = normal % 3u;
+    vec2 across = axis == 0u ? offset.yz : axis == 1u ? offset.xz : offset.xy;
+    ivec2 side = towards * ivec2(across.x < 0.0 ? -1 : 1, across.y < 0.0 ? -1 : 1);
+    across = abs(across);
+    bvec2 far = bvec2((k & 1u) != 0u, (k & 2u) != 0u);
+    vec2 share = vec2(far.x ? across.x : 1.0 - across.x, far.y ? across.y : 1.0 - across.y);
+    return NearFace(stepInPlane(normal, ivec2(far.x ? side.x : 0, far.y ? side.y : 0)), share.x * share.y);
+}
