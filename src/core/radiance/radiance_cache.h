@@ -3,35 +3,19 @@
 
 #include "core/light/environment.h"
 #include "core/light/tree_lights.h"
-#include "core/path/path_batch.h"
-#include "core/scene/camera.h"
+#include "core/radiance/radiance_passes.h"
 #include "core/trace/trace.h"
 #include "core/tree/device_tree.h"
 #include "radiance/radiance.h"
 #include "vk/deletion_queue.h"
 #include "vk/frame_graph.h"
 
-#include <array>
 #include <cstdint>
 #include <memory>
 #include <optional>
 
 namespace zvo
 {
-
-/// Options of the light that is kept on voxels.
-struct RadianceOptions
-{
-    std::uint32_t faces = 1U << 14;             // the most that a frame takes, by up to two rays and two shadow rays
-    std::uint32_t window = gpu::kKeptWeightMax; // the most samples that a mean counts
-    std::uint32_t seed = 0;
-    std::optional<TraceStack> stack = std::nullopt; // as in TraceOptions
-
-    bool operator==(const RadianceOptions&) const = default;
-};
-
-/// The most faces that RadianceOptions::faces asks for.
-inline constexpr std::uint32_t kRadianceFacesMax = 1U << 22;
 
 /// Keeps the light that arrives at the faces of voxels (shaders/radiance/radiance.h), and brings it up to date by a
 /// bounded number of rays a frame. Owns all buffers.
@@ -85,58 +69,18 @@ public:
     [[nodiscard]] std::uint32_t frameCount() const { return m_frame; }
 
 private:
-    /// What is kept from frame to frame.
-    struct Table
-    {
-        Table(vk::Device& device, std::uint64_t run_count);
-        [[nodiscard]] std::uint64_t bytes() const;
-
-        std::uint32_t run_count;
-        vk::BufferOf<gpu::KeptFace> faces;            // [kFaceRun * run_count]
-        vk::BufferOf<gpu::FaceState> states;          // likewise
-        vk::BufferOf<gpu::RadianceCounters> counters; // [1]
-    };
-
-    /// What frames use in turns.
-    struct Frame
-    {
-        Frame(vk::Device& device, std::uint32_t faces, std::uint32_t width, std::uint32_t height);
-        [[nodiscard]] std::uint64_t bytes() const;
-
-        std::uint32_t faces;
-        std::uint32_t width;
-        std::uint32_t height;
-        std::array<vk::BufferOf<gpu::uint>, 2> wanted; // slots of even and odd frames
-        PathBatch batch;
-        vk::BufferOf<gpu::uint> unlit;    // [faces] paths that have hit a face of which no light is known
-        vk::BufferOf<gpu::uint> bricks;   // [kBrickLevels][faces] slots of those that are listed
-        vk::BufferOf<gpu::BrickSum> sums; // [kBrickLevels][faces] of them; 0 between frames
-    };
-
-    struct Work;
-
     void follow(vk::FrameGraph& graph, const DeviceTree& tree, const DeviceEnvironment& environment);
     void purge(vk::FrameGraph& graph, std::uint32_t age_max);
-    void clear(vk::FrameGraph& graph, std::uint32_t frame);
-    void want(vk::FrameGraph& graph, const Work& work);
-    void tally(vk::FrameGraph& graph, const Work& work);
-    void take(vk::FrameGraph& graph, const Work& work);
-    void begin(vk::FrameGraph& graph, const Work& work);
-    void gather(vk::FrameGraph& graph, const Work& work, std::uint32_t ray);
-    void extend(vk::FrameGraph& graph, const Work& work);
-    void apply(vk::FrameGraph& graph, const Work& work);
-    void surround(vk::FrameGraph& graph, std::uint32_t level);
-    void fold(vk::FrameGraph& graph, const Work& work, std::uint32_t level);
 
     vk::Device& m_device;
     vk::DeletionQueue* m_deletion_queue;
     vk::BufferOf<gpu::TraceStatus> m_status; // [1]
     TreeLights m_lights;
-    std::unique_ptr<Table> m_table;
-    std::unique_ptr<Frame> m_buffers;
-    bool m_has_new_lists = false;         // since the last update: marks of what the last ones held stand in the table
-    std::unique_ptr<Table> m_other_table; // where faces are moved to; null until some may be
-    std::uint32_t m_frame = 0;            // 0: the table is to be cleared
+    std::unique_ptr<RadianceTable> m_table;
+    std::unique_ptr<RadianceLists> m_buffers;
+    bool m_has_new_lists = false; // since the last update: marks of what the last ones held stand in the table
+    std::unique_ptr<RadianceTable> m_other_table; // where faces are moved to; null until some may be
+    std::uint32_t m_frame = 0;                    // 0: the table is to be cleared
 
     std::uint64_t m_tree_version = 0; // of the last frame, like the next
     std::uint64_t m_environment_version = 0;

@@ -1,0 +1,374 @@
+// SPDX-License-Identifier: MIT
+#include "core/radiance/radiance_passes.h"
+
+#include "core/base/divide_up.h"
+#include "vk/device.h"
+
+#include <algorithm>
+
+namespace zvo
+{
+
+namespace
+{
+
+constexpr const char* kPurpose = "light on voxels";
+
+// The rays of a path, at most: a second one where the first has hit a face without light.
+constexpr std::uint32_t kFaceRays = 2;
+
+std::uint64_t quadsOf(std::uint32_t width, std::uint32_t height)
+{
+    return std::uint64_t{divideUp(width, 2U)} * divideUp(height, 2U);
+}
+
+// How many pixels of each 2x2 list their face in a frame: the camera lists about as many faces as a frame may take, or
+// one for each 2x2 where that is more.
+std::uint32_t wantingTurns(std::uint32_t width, std::uint32_t height, std::uint32_t faces)
+{
+    return static_cast<std::uint32_t>(std::clamp<std::uint64_t>(faces / quadsOf(width, height), 1, 4));
+}
+
+// The list of the faces that a frame takes, as a bounce of PathBatch::lists.
+std::uint32_t wantedList(std::uint32_t frame)
+{
+    return gpu::kWantedEven + frame % 2;
+}
+
+// Records what a frame needs cleared.
+void clear(vk::FrameGraph& graph, const RadianceFrame& frame)
+{
+    constexpr std::uint64_t kWords = gpu::kListElements * sizeof(gpu::DispatchArgs) / sizeof(gpu::uint);
+    PathBatch& batch = frame.lists.batch;
+    if (frame.number == 0)
+    {
+        graph.fill(frame.table.faces, 0);
+        graph.fill(frame.table.states, 0);
+        graph.fill(frame.table.counters, 0);
+        graph.fill(frame.status, 0);
+        graph.fill(batch.lists, 0);
+        graph.fill(frame.lists.sums, 0);
+        return;
+    }
+    graph.fill(batch.lists, 0, 0, gpu::kWantedEven * kWords);
+    graph.fill(batch.lists, 0, wantedList(frame.number + 1) * kWords, kWords);
+    graph.fill(batch.lists, 0, gpu::kFirstBricks * kWords, gpu::kBrickLevels * kWords);
+    graph.fill(frame.table.counters, 0, gpu::kCountersOfFrame,
+               sizeof(gpu::RadianceCounters) / sizeof(gpu::uint) - gpu::kCountersOfFrame);
+}
+
+void want(vk::FrameGraph& graph, const RadianceFrame& frame)
+{
+    vk::Pass pass = graph.addPass(
+        gpu::radiance::Want{.orthographic = frame.camera.orthographic,
+                            .turns = wantingTurns(frame.seen.width, frame.seen.height, frame.lists.faces)});
+    gpu::RadianceWantParams params{};
+    params.faces = pass.readWrite(frame.table.faces);
+    params.states = pass.readWrite(frame.table.states);
+    params.counters = pass.readWrite(frame.table.counters);
+    params.wanted = pass.readWrite(frame.lists.wanted.at(frame.number % 2));
+    params.lists = pass.readWrite(frame.lists.batch.lists);
+    params.hits = pass.read(frame.seen.hits);
+    params.live = pass.read(frame.seen.live);
+    params.forward = frame.camera.rays.forward;
+    params.half_pixel_x = frame.camera.rays.half_pixel_x;
+    params.half_pixel_y = frame.camera.rays.half_pixel_y;
+    params.width = frame.seen.width;
+    params.height = frame.seen.height;
+    params.run_count = frame.table.run_count;
+    params.frame = frame.number;
+    pass.dispatchIndirect(frame.seen.args, 0, params, frame.seen.live.count());
+}
+
+void tally(vk::FrameGraph& graph, const RadianceFrame& frame)
+{
+    PathBatch& batch = frame.lists.batch;
+    vk::Pass pass = graph.addPass(gpu::radiance::Tally{});
+    gpu::RadianceTallyParams params{};
+    params.faces = pass.read(frame.table.faces);
+    params.states = pass.read(frame.table.states);
+    params.wanted = pass.read(frame.lists.wanted.at(frame.number % 2));
+    params.counters = pass.readWrite(frame.table.counters);
+    params.lists = pass.readWrite(batch.lists);
+    params.frame = frame.number;
+    params.budget = frame.lists.faces;
+    pass.dispatchIndirect(batch.lists, listArgs(wantedList(frame.number), gpu::kListPaths), params,
+                          divideUp(frame.lists.wanted[0].count(), gpu::kPathGroup));
+}
+
+void take(vk::FrameGraph& graph, const RadianceFrame& frame)
+{
+    PathBatch& batch = frame.lists.batch;
+    vk::Pass pass = graph.addPass(gpu::radiance::Take{});
+    gpu::RadianceTakeParams params{};
+    params.faces = pass.read(frame.table.faces);
+    params.states = pass.readWrite(frame.table.states);
+    params.wanted = pass.read(frame.lists.wanted.at(frame.number % 2));
+    params.counters = pass.read(frame.table.counters);
+    params.lists = pass.readWrite(batch.lists);
+    params.numbers = pass.readWrite(batch.numbers);
+    params.frame = frame.number;
+    pass.dispatchIndirect(batch.lists, listArgs(wantedList(frame.number), gpu::kListPaths), params,
+                          divideUp(frame.lists.wanted[0].count(), gpu::kPathGroup));
+}
+
+void begin(vk::FrameGraph& graph, const RadianceFrame& frame)
+{
+    PathBatch& batch = frame.lists.batch;
+    const bool emits = hasEmission(frame.tree);
+    vk::Pass pass = graph.addPass(gpu::radiance::Begin{.node_levels = frame.tree.grid.nodeLevels(), .emission = emits});
+    gpu::RadianceBeginParams params{};
+    params.faces = pass.readWrite(frame.table.faces);
+    params.states = pass.readWrite(frame.table.states);
+    params.counters = pass.readWrite(frame.table.counters);
+    params.gives = pass.read(frame.environment.gives());
+    if (emits)
+    {
+        params.light_nodes = pass.read(frame.lights.nodes());
+    }
+    params.lists = pass.readWrite(batch.lists);
+    params.numbers = pass.readWrite(batch.numbers);
+    params.rays = pass.readWrite(batch.rays[0]);
+    params.path_states = pass.readWrite(batch.states[0]);
+    params.radiance = pass.readWrite(batch.radiance);
+    params.bricks = pass.readWrite(frame.lists.bricks);
+    params.batch = static_cast<std::uint32_t>(batch.capacity());
+    params.run_count = frame.table.run_count;
+    params.sample_index = frame.number;
+    params.seed = frame.options.seed;
+    pass.dispatchIndirect(batch.lists, listArgs(0, gpu::kListPaths), params,
+                          divideUp(frame.lists.faces, gpu::kPathGroup));
+}
+
+void surround(vk::FrameGraph& graph, const RadianceFrame& frame, std::uint32_t level)
+{
+    PathBatch& batch = frame.lists.batch;
+    vk::Pass pass = graph.addPass(gpu::radiance::Surround{});
+    gpu::RadianceSurroundParams params{};
+    params.faces = pass.readWrite(frame.table.faces);
+    params.states = pass.readWrite(frame.table.states);
+    params.counters = pass.readWrite(frame.table.counters);
+    params.lists = pass.readWrite(batch.lists);
+    params.bricks = pass.readWrite(frame.lists.bricks);
+    params.batch = static_cast<std::uint32_t>(batch.capacity());
+    params.run_count = frame.table.run_count;
+    params.level = level;
+    pass.dispatchIndirect(batch.lists, listArgs(gpu::kFirstBricks + level - 2, gpu::kListPaths), params,
+                          divideUp(frame.lists.faces, gpu::kPathGroup));
+}
+
+// ray: of the paths, 0 or 1.
+void gather(vk::FrameGraph& graph, const RadianceFrame& frame, std::uint32_t ray)
+{
+    PathBatch& batch = frame.lists.batch;
+    const bool emits = hasEmission(frame.tree);
+    vk::Pass pass = graph.addPass(
+        gpu::radiance::Gather{.format = frame.tree.attributeFormat(), .emission = emits, .ends = ray != 0});
+    gpu::RadianceGatherParams params{};
+    params.faces = pass.readWrite(frame.table.faces);
+    params.states = pass.readWrite(frame.table.states);
+    params.counters = pass.readWrite(frame.table.counters);
+    params.wanted = pass.readWrite(frame.lists.wanted.at((frame.number + 1) % 2));
+    params.lists = pass.readWrite(batch.lists);
+    params.numbers = pass.readWrite(batch.numbers);
+    params.attributes = readVoxelAttributes(pass, frame.tree);
+    if (emits)
+    {
+        params.emission_words = pass.read(frame.tree.emission_words);
+    }
+    params.rays = pass.read(batch.rays.at(ray));
+    params.hits = pass.read(batch.hits);
+    if (ray == 0)
+    {
+        params.unlit = pass.readWrite(frame.lists.unlit);
+    }
+    else
+    {
+        params.path_states = pass.read(batch.states.at(ray));
+    }
+    params.radiance = pass.readWrite(batch.radiance);
+    params.batch = static_cast<std::uint32_t>(batch.capacity());
+    params.run_count = frame.table.run_count;
+    params.frame = frame.number;
+    params.first_moving = frame.firstMoving().value_or(gpu::kHitMiss);
+    pass.dispatchIndirect(batch.lists, listArgs(ray, gpu::kListPaths), params,
+                          divideUp(frame.lists.faces, gpu::kPathGroup));
+}
+
+void extend(vk::FrameGraph& graph, const RadianceFrame& frame)
+{
+    PathBatch& batch = frame.lists.batch;
+    const bool emits = hasEmission(frame.tree);
+    vk::Pass pass = graph.addPass(gpu::radiance::Extend{
+        .node_levels = frame.tree.grid.nodeLevels(), .format = frame.tree.attributeFormat(), .emission = emits});
+    gpu::RadianceExtendParams params{};
+    params.faces = pass.read(frame.table.faces);
+    params.states = pass.read(frame.table.states);
+    params.attributes = readVoxelAttributes(pass, frame.tree);
+    params.hits = pass.read(batch.hits);
+    params.gives = pass.read(frame.environment.gives());
+    if (emits)
+    {
+        params.light_nodes = pass.read(frame.lights.nodes());
+    }
+    params.rays = pass.read(batch.rays[0]);
+    params.path_states = pass.read(batch.states[0]);
+    params.next_rays = pass.readWrite(batch.rays[1]);
+    params.next_states = pass.readWrite(batch.states[1]);
+    params.lists = pass.readWrite(batch.lists);
+    params.numbers = pass.readWrite(batch.numbers);
+    params.unlit = pass.read(frame.lists.unlit);
+    params.radiance = pass.readWrite(batch.radiance);
+    params.batch = static_cast<std::uint32_t>(batch.capacity());
+    params.run_count = frame.table.run_count;
+    params.sample_index = frame.number;
+    pass.dispatchIndirect(batch.lists, listArgs(gpu::kUnlitPaths, gpu::kListPaths), params,
+                          divideUp(frame.lists.faces, gpu::kPathGroup));
+}
+
+void apply(vk::FrameGraph& graph, const RadianceFrame& frame)
+{
+    PathBatch& batch = frame.lists.batch;
+    vk::Pass pass = graph.addPass(gpu::radiance::Apply{});
+    gpu::RadianceApplyParams params{};
+    params.faces = pass.readWrite(frame.table.faces);
+    params.states = pass.readWrite(frame.table.states);
+    params.numbers = pass.read(batch.numbers);
+    params.radiance = pass.read(batch.radiance);
+    params.lists = pass.readWrite(batch.lists);
+    params.sums = pass.readWrite(frame.lists.sums);
+    params.batch = static_cast<std::uint32_t>(batch.capacity());
+    params.run_count = frame.table.run_count;
+    params.frame = frame.number;
+    params.window = std::clamp(frame.window, 1U, gpu::kKeptWeightMax);
+    params.touched_window = frame.moves ? std::min(params.window, gpu::kTouchedSamples) : params.window;
+    params.moved_window = frame.moves ? std::min(params.window, gpu::kMovedSamples) : params.window;
+    pass.dispatchIndirect(batch.lists, listArgs(0, gpu::kListPaths), params,
+                          divideUp(frame.lists.faces, gpu::kPathGroup));
+}
+
+void fold(vk::FrameGraph& graph, const RadianceFrame& frame, std::uint32_t level)
+{
+    PathBatch& batch = frame.lists.batch;
+    const auto windowOf = [&](std::uint32_t samples)
+    { return std::clamp(gpu::kBrickFaces * std::min(samples, frame.window), 1U, gpu::kKeptWeightMax); };
+    vk::Pass pass = graph.addPass(gpu::radiance::Fold{});
+    gpu::RadianceFoldParams params{};
+    params.faces = pass.readWrite(frame.table.faces);
+    params.states = pass.readWrite(frame.table.states);
+    params.bricks = pass.read(frame.lists.bricks);
+    params.lists = pass.readWrite(batch.lists);
+    params.sums = pass.readWrite(frame.lists.sums);
+    params.batch = static_cast<std::uint32_t>(batch.capacity());
+    params.run_count = frame.table.run_count;
+    params.frame = frame.number;
+    params.level = level;
+    params.window = windowOf(frame.window);
+    params.moved_window = frame.moves ? windowOf(gpu::kMovedSamples) : params.window;
+    pass.dispatchIndirect(batch.lists, listArgs(gpu::kFirstBricks + level - 1, gpu::kListPaths), params,
+                          divideUp(frame.lists.faces, gpu::kPathGroup));
+}
+
+} // namespace
+
+RadianceTable::RadianceTable(vk::Device& device, std::uint64_t runs)
+    : run_count(static_cast<std::uint32_t>(runs)), counters(device, "radiance/counters", 1)
+{
+    const std::uint64_t slots = gpu::kFaceRun * runs;
+    device.memory().require(slots * (sizeof(gpu::KeptFace) + sizeof(gpu::FaceState)), kPurpose);
+    faces = {device, "radiance/faces", slots};
+    states = {device, "radiance/states", slots};
+}
+
+std::uint64_t RadianceTable::bytes() const
+{
+    return faces.bytes() + states.bytes() + counters.bytes();
+}
+
+RadianceLists::RadianceLists(vk::Device& device, std::uint32_t frame_faces, std::uint32_t picture_width,
+                             std::uint32_t picture_height)
+    : faces(frame_faces), width(picture_width), height(picture_height)
+{
+    // The camera lists as many faces as pixels want one, and the paths of a frame as many as there are.
+    const std::uint64_t wanted_max =
+        kFaceRays * std::uint64_t{faces} + quadsOf(width, height) * wantingTurns(width, height, faces);
+    const std::uint64_t brick_count = gpu::kBrickLevels * std::uint64_t{faces};
+    device.memory().require(PathBatch::bytesFor(faces, kFaceRays) + faces * sizeof(gpu::uint) +
+                                2 * wanted_max * sizeof(gpu::uint) +
+                                brick_count * (sizeof(gpu::uint) + sizeof(gpu::BrickSum)),
+                            kPurpose);
+    for (vk::BufferOf<gpu::uint>& slots : wanted)
+    {
+        slots = {device, "radiance/wanted", wanted_max};
+    }
+    batch = {device, faces, kFaceRays, gpu::kFirstBricks + gpu::kBrickLevels};
+    unlit = {device, "radiance/unlit", faces};
+    bricks = {device, "radiance/bricks", brick_count};
+    sums = {device, "radiance/brick_sums", brick_count};
+}
+
+std::uint64_t RadianceLists::bytes() const
+{
+    return wanted[0].bytes() + wanted[1].bytes() + batch.bytes() + unlit.bytes() + bricks.bytes() + sums.bytes();
+}
+
+void keepFaces(vk::FrameGraph& graph, const RadianceTable& from, RadianceTable& to, RadianceLists& lists,
+               std::uint32_t frame, std::uint32_t age_max)
+{
+    graph.fill(to.faces, 0);
+    graph.fill(to.states, 0);
+    graph.fill(to.counters, 0);
+    graph.fill(lists.batch.lists, 0);
+    graph.fill(lists.sums, 0);
+    vk::Pass pass = graph.addPass(gpu::radiance::Purge{});
+    gpu::RadiancePurgeParams params{};
+    params.faces = pass.readWrite(to.faces);
+    params.states = pass.readWrite(to.states);
+    params.counters = pass.readWrite(to.counters);
+    params.old_faces = pass.read(from.faces);
+    params.old_states = pass.read(from.states);
+    params.run_count = to.run_count;
+    params.frame = frame;
+    params.age_max = age_max;
+    pass.dispatch(to.faces.count(), params);
+}
+
+void sampleFaces(vk::FrameGraph& graph, const RadianceFrame& frame)
+{
+    clear(graph, frame);
+    want(graph, frame);
+    tally(graph, frame);
+    take(graph, frame);
+    begin(graph, frame);
+    for (std::uint32_t level = 2; level <= gpu::kBrickLevels; ++level)
+    {
+        surround(graph, frame, level);
+    }
+    PathBatch& batch = frame.lists.batch;
+    for (std::uint32_t ray = 0; ray < kFaceRays; ++ray)
+    {
+        if (ray != 0)
+        {
+            extend(graph, frame);
+        }
+        const PathLight light = {.tree = frame.tree,
+                                 .environment = frame.environment,
+                                 .lights = frame.lights,
+                                 .status = frame.status,
+                                 .stack = frame.options.stack,
+                                 .sample_index = frame.number,
+                                 .path_count = frame.lists.faces,
+                                 .first_noted = ray == 0 ? frame.firstMoving() : std::nullopt};
+        addChosenLight(graph, light, batch, ray, ray);
+        tracePaths(graph, light, batch, ray, ray);
+        gather(graph, frame, ray);
+        addMetLight(graph, light, batch, ray, ray);
+    }
+    apply(graph, frame);
+    for (std::uint32_t level = 1; level <= gpu::kBrickLevels; ++level)
+    {
+        fold(graph, frame, level);
+    }
+}
+
+} // namespace zvo

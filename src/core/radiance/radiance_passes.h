@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "core/light/environment.h"
+#include "core/light/tree_lights.h"
+#include "core/path/path_batch.h"
+#include "core/trace/trace.h"
+#include "core/tree/device_tree.h"
+#include "radiance/radiance.h"
+#include "vk/frame_graph.h"
+
+#include <array>
+#include <cstdint>
+#include <optional>
+
+namespace zvo
+{
+
+/// Options of the light that is kept on voxels.
+struct RadianceOptions
+{
+    std::uint32_t faces = 1U << 14;             // the most that a frame takes, by up to two rays and two shadow rays
+    std::uint32_t window = gpu::kKeptWeightMax; // the most samples that a mean counts
+    std::uint32_t seed = 0;
+    std::optional<TraceStack> stack = std::nullopt; // as in TraceOptions
+
+    bool operator==(const RadianceOptions&) const = default;
+};
+
+/// The most faces that RadianceOptions::faces asks for.
+inline constexpr std::uint32_t kRadianceFacesMax = 1U << 22;
+
+/// What is kept from frame to frame.
+struct RadianceTable
+{
+    RadianceTable(vk::Device& device, std::uint64_t run_count);
+    [[nodiscard]] std::uint64_t bytes() const;
+
+    std::uint32_t run_count;
+    vk::BufferOf<gpu::KeptFace> faces;            // [kFaceRun * run_count]
+    vk::BufferOf<gpu::FaceState> states;          // likewise
+    vk::BufferOf<gpu::RadianceCounters> counters; // [1]
+};
+
+/// What frames use in turns.
+struct RadianceLists
+{
+    RadianceLists(vk::Device& device, std::uint32_t faces, std::uint32_t width, std::uint32_t height);
+    [[nodiscard]] std::uint64_t bytes() const;
+
+    std::uint32_t faces;
+    std::uint32_t width;
+    std::uint32_t height;
+    std::array<vk::BufferOf<gpu::uint>, 2> wanted; // slots of even and odd frames
+    PathBatch batch;
+    vk::BufferOf<gpu::uint> unlit;    // [faces] paths that have hit a face without light
+    vk::BufferOf<gpu::uint> bricks;   // [kBrickLevels][faces] slots of those that are listed
+    vk::BufferOf<gpu::BrickSum> sums; // [kBrickLevels][faces] of them; 0 between frames
+};
+
+/// What a frame that samples faces is made of.
+struct RadianceFrame
+{
+    RadianceTable& table;
+    RadianceLists& lists;
+    const DeviceTree& tree;
+    const DeviceEnvironment& environment; // prepared, like lights
+    const TreeLights& lights;
+    vk::BufferOf<gpu::TraceStatus>& status; // [1] of the rays
+    const TraceCamera& camera;
+    const TraceBuffers& seen; // filled by tracePrimary() of the same tree and camera without a level of detail
+    const RadianceOptions& options;
+    std::uint32_t number; // 0: nothing is kept yet
+    bool moves;           // something has moved lately
+    std::uint32_t window; // the most samples that means count
+
+    /// The index of attributes from which on voxels are those of overlays, if there may be any.
+    [[nodiscard]] std::optional<std::uint32_t> firstMoving() const
+    {
+        return tree.hasOverlays() ? std::optional(tree.voxel_count) : std::nullopt;
+    }
+};
+
+/// Records the passes of a frame (shaders/radiance/radiance.h). Throws Error{Memory}.
+void sampleFaces(vk::FrameGraph& graph, const RadianceFrame& frame);
+
+/// Records the passes that fill a table with the faces of another one that a ray has hit in the last age_max frames
+/// before `frame`, and empty the lists, which named slots of the other.
+void keepFaces(vk::FrameGraph& graph, const RadianceTable& from, RadianceTable& to, RadianceLists& lists,
+               std::uint32_t frame, std::uint32_t age_max);
+
+} // namespace zvo
