@@ -51,6 +51,7 @@ struct KeptRow
     double frame_ms = 0;                  // median of a sample or frame
     double total_ms = 0;                  // of all before the picture
     std::optional<double> paths_of_error; // a pixel that path tracing needs for the same error
+    std::optional<double> of_their_time;  // total_ms beside that of these paths
     std::optional<double> bytes_of_voxel; // that are kept
 };
 
@@ -77,6 +78,7 @@ const Columns<KeptRow>& keptColumns()
         {"frame ms", 8, [](const Row& row) { return fmt::format("{:.1f}", row.frame_ms); }},
         {"total ms", 8, [](const Row& row) { return fmt::format("{:.0f}", row.total_ms); }},
         {"as paths", 8, [](const Row& row) { return optionalText(row.paths_of_error, 0); }},
+        {"of their time", 13, [](const Row& row) { return optionalText(row.of_their_time, 3); }},
         {"bytes a voxel", 13, [](const Row& row) { return optionalText(row.bytes_of_voxel, 1); }},
     };
     return all;
@@ -207,11 +209,13 @@ public:
             compareKept(row, reference, tracer.picture(), path, tracer.cache());
             row.frame_ms = medianOf(ms);
             row.total_ms = totalOf(ms);
+            compareTimes(row, path);
             rows.push_back(row);
             row = rowOf("cones", count);
             compareKept(row, reference, cones.picture(), path, tracer.cache());
             row.frame_ms = medianOf(cone_ms);
             row.total_ms = settled_ms + totalOf(cone_ms);
+            compareTimes(row, path);
             rows.push_back(row);
         }
         return rows;
@@ -236,9 +240,23 @@ private:
     {
         row.quality = compareTo(reference, imageOf(picture));
         row.noise = m_noise;
-        // The error of paths falls with the square root of their number.
-        row.paths_of_error = path.count * std::pow(path.quality->relative / row.quality->relative, 2.0);
+        // The error of paths falls with the square root of their number. Squares of errors, the reference's own among
+        // them, add up.
+        const double square = std::pow(row.quality->relative, 2.0) - std::pow(m_noise.value_or(0.0), 2.0);
+        const double path_square = std::pow(path.quality->relative, 2.0) - std::pow(m_noise.value_or(0.0), 2.0);
+        if (square > 0.0 && path_square > 0.0)
+        {
+            row.paths_of_error = path.count * path_square / square;
+        }
         row.bytes_of_voxel = static_cast<double>(cache.bytes()) / static_cast<double>(m_scene.tree.voxel_count);
+    }
+
+    static void compareTimes(KeptRow& row, const KeptRow& path)
+    {
+        if (row.paths_of_error)
+        {
+            row.of_their_time = row.total_ms / (*row.paths_of_error * path.frame_ms);
+        }
     }
 
     // Adds what cones see in the tracer's last frame. Returns the milliseconds.
@@ -309,6 +327,10 @@ Json keptReportJson(const vk::DeviceReport& device, const BenchOptions& options,
         if (row.paths_of_error)
         {
             entry["paths_of_error"] = *row.paths_of_error;
+            entry["of_their_time"] = *row.of_their_time;
+        }
+        if (row.bytes_of_voxel)
+        {
             entry["bytes_of_voxel"] = *row.bytes_of_voxel;
         }
         json["rows"].push_back(std::move(entry));

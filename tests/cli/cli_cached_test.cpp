@@ -186,6 +186,7 @@ TEST_F(CliCached, IsMeasuredBesidePaths)
     }
     EXPECT_LT(rows[8]["relative_error"], rows[1]["relative_error"]);
     EXPECT_GT(rows[8]["paths_of_error"], 1.0);
+    EXPECT_GT(rows[8]["of_their_time"], 0.0);
     EXPECT_GT(rows[8]["flip"], 0.0);
     EXPECT_LT(rows[8]["flip"], 1.0);
     EXPECT_GT(rows[8]["reference_error"], 0.0);
