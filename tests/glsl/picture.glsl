@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // A host's kernel: a camera's picture of a tree, by rays of pixels in unit space, with all that there is to know of
-// what they hit. Whoever includes it has said how (the macros of zvo/trace.glsl). glsl/host_glsl_test.cpp has the same
+// what they hit. Whoever includes it has said how (the macros of zvo/trace.glsl). glsl/zvo_picture.h has the same
 // structs.
 #include "zvo/trace.glsl"
 
