@@ -1,23 +1,17 @@
 // SPDX-License-Identifier: MIT
-// Runs every kernel of the library once. The work is so small that it can be watched by tools that slow programs down a
-// hundredfold: valgrind, instrumented kernels, poisoned memory.
+// Runs every kernel of the library once, but for those of brushes. The work is so small that it can be watched by tools
+// that slow programs down a hundredfold: valgrind, instrumented kernels, poisoned memory.
 #include "core/base/grid.h"
-#include "core/base/kernels.h"
 #include "core/deform/deform_mesh.h"
-#include "core/denoise/denoiser.h"
 #include "core/dynamic/dynamic_octree.h"
-#include "core/headless/attribute_packer.h"
 #include "core/headless/compress.h"
 #include "core/headless/pipeline.h"
 #include "core/headless/svdag_forest.h"
 #include "core/octree/octree_build.h"
-#include "core/path/path_tracer.h"
-#include "core/present/present.h"
-#include "core/radiance/radiance_tracer.h"
 #include "core/scene/animation.h"
-#include "core/trace/trace.h"
-#include "core/trace/trace_depth.h"
 #include "core/tree/device_tree.h"
+#include "lanes/kernel_names.h"
+#include "lanes/traced_pictures.h"
 #include "oracle/voxelizer.h"
 #include "support/dag_compare.h"
 #include "support/dags.h"
@@ -29,9 +23,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <set>
+#include <cstdint>
 #include <span>
-#include <string>
+#include <utility>
+#include <vector>
 
 namespace zvo
 {
@@ -39,53 +34,17 @@ namespace zvo
 namespace
 {
 
+using test::addNames;
+using test::device;
+using test::keepLight;
+using test::KernelNames;
+using test::traceForHosts;
+using test::tracePacked;
+using test::tracePaths;
+using test::tracePictures;
+
 // The path to a voxel's rank in a DAG goes below the table of ranks, through every kind of list.
 constexpr std::uint32_t kDepthOfRankSums = 11;
-
-using test::device;
-
-// Names of the kernels that have run.
-using Names = std::set<std::string>;
-
-void addNames(Names& names, const std::vector<vk::PassTime>& passes)
-{
-    for (const vk::PassTime& pass : passes)
-    {
-        names.insert(pass.name);
-    }
-}
-
-// A few triangles in three materials, which use every property of a material: plain, textured and emissive, blended.
-Scene smallScene()
-{
-    Scene scene = test::randomTriangles(3, 12, 16.0F);
-    Primitive& plain = scene.primitives[0];
-    Primitive textured = plain;
-    for (const glm::vec3& position : plain.positions)
-    {
-        textured.uvs.emplace_back(position.x * 0.1F, position.y * 0.1F);
-        textured.normals.emplace_back(0.0F, 1.0F, 0.0F);
-        textured.colors.emplace_back(0.5F, 1.0F, 0.25F, 0.75F);
-    }
-    scene.images.push_back({"checker", 2, 2, {255, 0, 0, 255, 0, 255, 0, 90, 0, 0, 255, 255, 255, 255, 255, 160}});
-    scene.textures.push_back({0, WrapMode::Repeat, WrapMode::MirroredRepeat});
-    Material emissive;
-    emissive.base_color_texture = 0;
-    emissive.emission = glm::vec3(2.0F, 1.0F, 0.5F);
-    emissive.emission_texture = 0;
-    Material blended;
-    blended.base_color_texture = 0;
-    blended.alpha_mode = AlphaMode::Blend;
-    scene.materials.push_back(emissive);
-    scene.materials.push_back(blended);
-    textured.material = 1;
-    scene.primitives.push_back(textured);
-    textured.material = 2;
-    scene.primitives.push_back(textured);
-    scene.instances.push_back({1, glm::mat4(0, 0, 1, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0, 1)});
-    scene.instances.push_back({2, glm::mat4(-1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 16, 0, 0, 1)});
-    return scene;
-}
 
 std::vector<std::uint64_t> voxelCodesOf(const std::vector<test::Cell>& cells, const Grid& grid)
 {
@@ -100,111 +59,8 @@ std::vector<std::uint64_t> voxelCodesOf(const std::vector<test::Cell>& cells, co
     return codes;
 }
 
-// Traces pictures by every path of the tracer.
-Names tracePictures(const DeviceTree& tree)
-{
-    Names names;
-    const ViewCamera view = ViewCamera::lookAt({25.0, 22.0, 31.0}, {8.0, 8.0, 8.0}, 0.7);
-    BeamGrid beam(device().device(), tree.isDag());
-    TraceBuffers buffers(device().device(), 17, 9);
-    addNames(names, device().run([&](vk::FrameGraph& graph) { buildBeam(graph, tree, beam); }));
-    for (const TraceStack stack : {TraceStack::Registers, TraceStack::Private, TraceStack::Shared})
-    {
-        if (tree.isDag() && stack != TraceStack::Registers)
-        {
-            continue; // lists and stacks are independent, and compiling each variant takes time
-        }
-        for (const View shown : {View::Color, View::Iterations})
-        {
-            TraceOptions options;
-            options.view = shown;
-            options.stack = stack;
-            options.occlusion_rays = 2;
-            options.beam = stack != TraceStack::Private;
-            const TraceCamera camera = traceCamera(view, tree.grid, buffers.height);
-            addNames(names,
-                     device().run([&](vk::FrameGraph& graph) { trace(graph, tree, beam, camera, options, buffers); }));
-        }
-    }
-    TraceOptions coarse;
-    coarse.detail_level = 2;
-    const TraceCamera camera = traceCamera(view, tree.grid, buffers.height);
-    addNames(names, device().run([&](vk::FrameGraph& graph) { trace(graph, tree, beam, camera, coarse, buffers); }));
-    vk::BufferOf<gpu::PixelReport> report(device().device(), "report", 1);
-    addNames(names, device().run(
-                        [&](vk::FrameGraph& graph) {
-                            inspectPixel(graph, tree, camera, coarse, buffers, {8, 4}, report);
-                        }));
-    const gpu::Ray ray = {{1.1F, 1.2F, 1.3F}, 0.0F, {-1.0F, -2.0F, 3.0F}, 4.0F};
-    const vk::BufferOf<gpu::Ray> rays = device().makeBuffer<gpu::Ray>("rays", std::vector<gpu::Ray>(3, ray));
-    vk::BufferOf<gpu::Hit> hits(device().device(), "hits", rays.count());
-    vk::BufferOf<gpu::DispatchArgs> rounds(device().device(), "rounds", gpu::kTraceRoundsMax);
-    vk::BufferOf<gpu::TraceStatus> status(device().device(), "status", 1);
-    addNames(names, device().run(
-                        [&](vk::FrameGraph& graph)
-                        {
-                            graph.fill(status, 0);
-                            traceRays(graph, tree, rays, hits, rounds, status, {});
-                        }));
-    return names;
-}
-
-// Traces paths through a tree with emissive voxels, in both forms, for two pictures that are denoised.
-Names tracePaths(const DeviceTree& tree)
-{
-    DeviceEnvironment sky(device().device());
-    PathTracer tracer(device().device());
-    Denoiser denoiser(device().device());
-    Developer developer(device().device());
-    denoiser.resize(9, 10);
-    const ViewCamera view = ViewCamera::lookAt({25.0, 22.0, 31.0}, {8.0, 8.0, 8.0}, 0.7);
-    const TraceCamera camera = traceCamera(view, tree.grid, 10);
-    vk::BufferOf<gpu::uint> picture(device().device(), "picture", 90);
-    Names names;
-    for (const PathForm form : {PathForm::Stages, PathForm::OneKernel})
-    {
-        tracer.resize(9, 10, form);
-        for (const bool features : {false, true, true})
-        {
-            tracer.forget();
-            addNames(names, device().run(
-                                [&](vk::FrameGraph& graph)
-                                {
-                                    tracer.addSample(graph, tree, sky, camera, {.bounces = 1, .features = features});
-                                    if (features)
-                                    {
-                                        denoiser.denoise(graph, tracer.guided(), 4);
-                                    }
-                                    developer.develop(graph, tracer.picture(), TexelFormat::Rgba8, {}, picture);
-                                }));
-        }
-    }
-    return names;
-}
-
-// Keeps light on the voxels of a tree, in pictures of two sizes, of which the second is seen through cones.
-Names keepLight(const DeviceTree& tree)
-{
-    DeviceEnvironment sky(device().device());
-    RadianceTracer tracer(device().device());
-    const ViewCamera view = ViewCamera::lookAt({25.0, 22.0, 31.0}, {8.0, 8.0, 8.0}, 0.7);
-    Names names;
-    for (const std::uint32_t height : {10U, 11U})
-    {
-        tracer.resize(9, height);
-        const TraceCamera camera = traceCamera(view, tree.grid, height);
-        const KeptView kind = height == 10 ? KeptView::Faces : KeptView::Cones;
-        for (std::uint32_t frame = 0; frame < 2; ++frame)
-        {
-            addNames(names, device().run([&](vk::FrameGraph& graph)
-                                         { tracer.addFrame(graph, tree, sky, camera, {.faces = 100}, kind); }));
-        }
-    }
-    return names;
-}
-
 // Deforms 70 vertices with all that a deforming mesh can have, in two instances; the second one has no skin.
-Names deformVertices()
+KernelNames deformVertices()
 {
     Scene scene;
     Primitive& primitive = scene.primitives.emplace_back();
@@ -228,7 +84,7 @@ Names deformVertices()
     PoseBuffers buffers(device().device(), mesh);
     vk::BufferOf<gpu::vec3> positions(device().device(), "positions", mesh.position_count);
     vk::BufferOf<gpu::vec3> normals(device().device(), "normals", mesh.normal_count);
-    Names names;
+    KernelNames names;
     addNames(names, device().run(
                         [&](vk::FrameGraph& graph)
                         {
@@ -242,7 +98,8 @@ Names deformVertices()
 }
 
 // Averages the nodes of an octree in which voxels are some way apart.
-Names averageNodesOf(const GpuScene& scene, std::uint32_t depth, std::uint64_t voxel_count, std::uint64_t distance)
+KernelNames averageNodesOf(const GpuScene& scene, std::uint32_t depth, std::uint64_t voxel_count,
+                           std::uint64_t distance)
 {
     const Grid grid{.origin = glm::vec3(0.0F), .voxel_size = 1.0F, .depth = depth};
     std::vector<test::Cell> voxels;
@@ -258,7 +115,7 @@ Names averageNodesOf(const GpuScene& scene, std::uint32_t depth, std::uint64_t v
         cell.attribute = cell.level < grid.nodeLevels() ? gpu::Attribute{} : cell.attribute;
     }
     DeviceTree octree = test::octreeOf(device(), cells, grid, 1.0F);
-    Names names;
+    KernelNames names;
     addNames(names, device().run([&](vk::FrameGraph& graph) { averageNodes(graph, scene, octree); }));
     EXPECT_EQ(test::difference(test::cellsOf(device(), octree), expected), "");
     return names;
@@ -266,9 +123,9 @@ Names averageNodesOf(const GpuScene& scene, std::uint32_t depth, std::uint64_t v
 
 // Merges the scene, as an octree or a DAG, with a copy of itself that is moved by two voxels, traces pictures of it,
 // and undoes it.
-Names mergeObjects(const Scene& scene, const Grid& grid, Coverage coverage, bool compressed)
+KernelNames mergeObjects(const Scene& scene, const Grid& grid, Coverage coverage, bool compressed)
 {
-    Names names;
+    KernelNames names;
     const float emission_scale = brightestEmission(scene);
     const GpuScene gpu_scene = uploadScene(device(), scene, true, emission_scale);
     BuildOptions build{coverage};
@@ -306,7 +163,7 @@ Names mergeObjects(const Scene& scene, const Grid& grid, Coverage coverage, bool
     both.append(std::move(moved));
     EXPECT_EQ(voxelCodesOf(test::cellsOf(device(), octree.tree()), grid), oracle::voxelize(both, grid, coverage).codes);
 
-    Names shown = tracePictures(octree.tree());
+    KernelNames shown = tracePictures(octree.tree());
     for (const char* kernel : {"trace/beam_ranks", "trace/primary_ranks", "trace/ranks"}) // for overlays
     {
         EXPECT_EQ(shown.contains(kernel), compressed) << kernel;
@@ -318,68 +175,10 @@ Names mergeObjects(const Scene& scene, const Grid& grid, Coverage coverage, bool
     return names;
 }
 
-// Carves, fills and paints with so little room that states have to move, and undoes a step.
-Names editVoxels(DeviceTree fixed, bool attributes, float emission_scale)
-{
-    Names names;
-    DynamicOptions options;
-    options.merge = MergeRule::Average;
-    options.emission_scale = emission_scale;
-    options.attributes = attributes;
-    options.edits = {.entries_max = 4, .bytes_max = 0};
-    DynamicOctree octree(device(), std::move(fixed), options);
-    const auto cells = [&] { return test::cellsOf(device(), octree.tree()); };
-    test::EditModel model(octree.tree().grid, cells(), attributes);
-    std::vector<test::Cell> before;
-    for (std::uint32_t i = 0; i < 4; ++i)
-    {
-        const auto action = static_cast<BrushAction>(i % 3);
-        const Brush brush = {BrushShape::Sphere, action, gpu::ivec3(30 + 3 * i, 32, 34), 2 + 2 * i, 0x2060C0};
-        before = model.cells();
-        model.apply(brush);
-        for (bool is_done = false; !is_done;)
-        {
-            const std::uint64_t frame = octree.beginFrame();
-            addNames(names, device().run([&](vk::FrameGraph& graph) { is_done = octree.edit(graph, brush); }));
-            octree.frameDone(frame);
-        }
-        octree.endStroke();
-    }
-    EXPECT_EQ(test::difference(cells(), model.cells()), "");
-    if (octree.edits().undoCount() != 0)
-    {
-        addNames(names, device().run([&](vk::FrameGraph& graph) { octree.undoEdit(graph); }));
-        EXPECT_EQ(test::difference(cells(), before), "");
-    }
-    return names;
-}
-
-// Edits the scene as an octree, as a DAG, and without attributes; compiling more variants would take too long.
-Names editTrees(const Scene& scene, const Grid& grid)
-{
-    Names names;
-    const float emission_scale = brightestEmission(scene);
-    for (const bool attributes : {true, false})
-    {
-        const float scale = attributes ? emission_scale : 0;
-        const GpuScene gpu_scene = uploadScene(device(), scene, attributes, scale);
-        BuildOptions build;
-        build.attributes = attributes;
-        build.keep_sums = attributes;
-        if (attributes)
-        {
-            names.merge(editVoxels(buildOctree(device(), gpu_scene, grid, build).octree, attributes, scale));
-        }
-        BuildResult built = buildOctree(device(), gpu_scene, grid, build);
-        names.merge(editVoxels(compress(device(), std::move(built.octree)).dag, attributes, scale));
-    }
-    return names;
-}
-
 // Compresses the octree to a DAG, and that DAG again, in which nothing more can be shared.
-Names compressOctree(DeviceTree octree, const CompressOptions& options)
+KernelNames compressOctree(DeviceTree octree, const CompressOptions& options)
 {
-    Names names;
+    KernelNames names;
     const DeviceTree expected = test::svdagOf(device(), octree);
     CompressResult once = compress(device(), std::move(octree), options);
     addNames(names, once.passes);
@@ -391,18 +190,8 @@ Names compressOctree(DeviceTree octree, const CompressOptions& options)
     return names;
 }
 
-// Traces pictures of the octree with packed attributes. Pictures of all formats are traced.
-Names tracePacked(BuildResult built, AttributeFormat format)
-{
-    Names names;
-    addNames(names, packTree(device(), format, built.octree));
-    EXPECT_EQ(built.octree.attributeFormat(), format);
-    names.merge(tracePictures(built.octree));
-    return names;
-}
-
 // Makes the same DAG, joined of eight tiles.
-Names joinTiles(const GpuScene& scene, const Grid& grid, Coverage coverage, const DeviceTree& octree)
+KernelNames joinTiles(const GpuScene& scene, const Grid& grid, Coverage coverage, const DeviceTree& octree)
 {
     const std::uint32_t tile_depth = grid.depth - 1;
     SvdagForest forest(device(), grid, tile_depth);
@@ -419,70 +208,15 @@ Names joinTiles(const GpuScene& scene, const Grid& grid, Coverage coverage, cons
     const std::vector<gpu::Node> expected = device().download(test::svdagOf(device(), octree).nodes);
     EXPECT_EQ(pool.size(), expected.size());
     EXPECT_TRUE(std::ranges::equal(std::as_bytes(std::span(pool)), std::as_bytes(std::span(expected))));
-    Names names;
+    KernelNames names;
     addNames(names, forest.passes());
     return names;
 }
 
-// Scales a picture of 3 x 2 pixels to twice and to a third of its width.
-Names scalePictures()
-{
-    const std::vector<gpu::uint> from = {1, 2, 3, 4, 5, 6};
-    const vk::BufferOf<gpu::uint> small = device().makeBuffer<gpu::uint>("picture", from);
-    vk::BufferOf<gpu::uint> wide(device().device(), "wide picture", 12);
-    vk::BufferOf<gpu::uint> narrow(device().device(), "narrow picture", 2);
-    Names names;
-    addNames(names, device().run(
-                        [&](vk::FrameGraph& graph)
-                        {
-                            scalePicture(graph, small, {3, 2}, wide, {6, 2});
-                            scalePicture(graph, small, {3, 2}, narrow, {1, 2});
-                        }));
-    EXPECT_EQ(device().download(wide), (std::vector<gpu::uint>{1, 1, 2, 2, 3, 3, 4, 4, 5, 5, 6, 6}));
-    EXPECT_EQ(device().download(narrow), (std::vector<gpu::uint>{2, 5}));
-    return names;
-}
-
-// Traces pictures in the texel formats of hosts' images, lit and unlit, with depth.
-Names traceForHosts(const DeviceTree& tree)
-{
-    Names names;
-    ViewCamera view = ViewCamera::lookAt({25.0, 22.0, 31.0}, {8.0, 8.0, 8.0}, 0.7);
-    view.half_height = 12.0;
-    const BeamGrid beam(device().device(), tree.isDag()); // not used
-    ClipDepth clip;                                       // 1 / (1 + distance)
-    clip.z.w = 1.0;
-    clip.w = glm::dvec4(view.forward, 1.0 - glm::dot(view.forward, view.position));
-    clip.miss = 0.0F;
-    for (const TexelFormat format : {TexelFormat::Bgra8, TexelFormat::Rgb10, TexelFormat::Half})
-    {
-        TraceBuffers buffers(device().device(), 17, 9, format);
-        vk::BufferOf<float> depth(device().device(), "depth", buffers.hits.count());
-        view.orthographic = format == TexelFormat::Half;
-        const TraceCamera camera = traceCamera(view, tree.grid, buffers.height);
-        for (const View shown : {View::Color, View::Albedo})
-        {
-            TraceOptions options;
-            options.view = shown;
-            options.beam = false;
-            options.shadows = false;
-            addNames(names, device().run(
-                                [&](vk::FrameGraph& graph)
-                                {
-                                    trace(graph, tree, beam, camera, options, buffers);
-                                    traceDepth(graph, tree.grid, camera, clip, buffers, depth);
-                                }));
-        }
-        const std::vector<float> depths = device().download(depth);
-        EXPECT_GT(*std::ranges::max_element(depths), 0.0F);
-    }
-    return names;
-}
-
 // Builds the octree of a scene in each form of sums. Only the forms of GPUs get all variants.
-Names addInAllForms(const Scene& scene, const Grid& grid, Coverage coverage, bool all)
+KernelNames addInAllForms(const Scene& scene, const Grid& grid, Coverage coverage, bool all)
 {
-    Names names;
+    KernelNames names;
     const GpuScene gpu_scene = uploadScene(device(), scene, true);
     const DeviceTree octree = buildOctree(device(), gpu_scene, grid, {coverage}).octree;
     EXPECT_EQ(voxelCodes(device(), octree), oracle::voxelize(scene, grid, coverage).codes);
@@ -503,9 +237,9 @@ Names addInAllForms(const Scene& scene, const Grid& grid, Coverage coverage, boo
 }
 
 // Builds an octree of a scene that emits nothing, with sums of mixed voxels alone and of all voxels.
-Names addMixed(const Grid& grid, Coverage coverage)
+KernelNames addMixed(const Grid& grid, Coverage coverage)
 {
-    Names names;
+    KernelNames names;
     const GpuScene dark = uploadScene(device(), test::sphereScene(glm::vec3(8.0F), 6.0F, 6), true);
     SumForm form = SumForm::on(device().device());
     std::vector<std::vector<test::Cell>> cells;
@@ -522,32 +256,13 @@ Names addMixed(const Grid& grid, Coverage coverage)
     return names;
 }
 
-// Expects that all kernels of brushes have run, or all others, of those that the device can run.
-void expectAllRan(const Names& names, bool of_brushes)
-{
-    for (const vk::EmbeddedKernel& kernel : zvoKernels())
-    {
-        const std::string name(kernel.name);
-        const bool can_run = SumForm::on(device().device()).int64 || !name.ends_with("_int64");
-        if (can_run && name.starts_with("edit/") == of_brushes)
-        {
-            EXPECT_TRUE(names.contains(name)) << name << " did not run";
-        }
-    }
-}
-
-TEST(EveryKernel, OfBrushesRunsOnASmallScene)
-{
-    expectAllRan(editTrees(smallScene(), {.origin = glm::vec3(0.0F), .voxel_size = 0.25F, .depth = 6}), true);
-}
-
 TEST(EveryKernel, RunsOnASmallScene)
 {
-    const Scene scene = smallScene();
+    const Scene scene = test::smallScene();
     Scene plain = scene; // has fewer variants of the raster kernels
     plain.instances.resize(1);
     const GpuScene gpu_scene = uploadScene(device(), scene, true);
-    Names names = deformVertices();
+    KernelNames names = deformVertices();
     for (std::uint32_t levels = 1; levels <= gpu::kNodeLevelsMax; ++levels)
     {
         names.merge(averageNodesOf(gpu_scene, 2 * levels - 1, levels == 1 ? 8 : 60, 1));
@@ -603,8 +318,8 @@ TEST(EveryKernel, RunsOnASmallScene)
         }
         names.merge(compressOctree(std::move(built.octree), {.table_slots = c.table_slots}));
     }
-    names.merge(scalePictures());
-    expectAllRan(names, false);
+    names.merge(test::scalePictures());
+    test::expectAllRan(names, false);
 }
 
 } // namespace

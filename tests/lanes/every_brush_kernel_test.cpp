@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: MIT
+// Runs every kernel of brushes once, on work as small as that of every_kernel_test.cpp.
+#include "core/base/grid.h"
+#include "core/dynamic/dynamic_octree.h"
+#include "core/headless/compress.h"
+#include "core/headless/pipeline.h"
+#include "lanes/kernel_names.h"
+#include "support/edit_model.h"
+#include "support/engine_device.h"
+#include "support/octree_contents.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+namespace zvo
+{
+
+namespace
+{
+
+using test::addNames;
+using test::device;
+using test::KernelNames;
+
+// Carves, fills and paints with so little room that states have to move, and undoes a step.
+KernelNames editVoxels(DeviceTree fixed, bool attributes, float emission_scale)
+{
+    KernelNames names;
+    DynamicOptions options;
+    options.merge = MergeRule::Average;
+    options.emission_scale = emission_scale;
+    options.attributes = attributes;
+    options.edits = {.entries_max = 4, .bytes_max = 0};
+    DynamicOctree octree(device(), std::move(fixed), options);
+    const auto cells = [&] { return test::cellsOf(device(), octree.tree()); };
+    test::EditModel model(octree.tree().grid, cells(), attributes);
+    std::vector<test::Cell> before;
+    for (std::uint32_t i = 0; i < 4; ++i)
+    {
+        const auto action = static_cast<BrushAction>(i % 3);
+        const Brush brush = {BrushShape::Sphere, action, gpu::ivec3(30 + 3 * i, 32, 34), 2 + 2 * i, 0x2060C0};
+        before = model.cells();
+        model.apply(brush);
+        for (bool is_done = false; !is_done;)
+        {
+            const std::uint64_t frame = octree.beginFrame();
+            addNames(names, device().run([&](vk::FrameGraph& graph) { is_done = octree.edit(graph, brush); }));
+            octree.frameDone(frame);
+        }
+        octree.endStroke();
+    }
+    EXPECT_EQ(test::difference(cells(), model.cells()), "");
+    if (octree.edits().undoCount() != 0)
+    {
+        addNames(names, device().run([&](vk::FrameGraph& graph) { octree.undoEdit(graph); }));
+        EXPECT_EQ(test::difference(cells(), before), "");
+    }
+    return names;
+}
+
+// Edits the scene as an octree, as a DAG, and without attributes; compiling more variants would take too long.
+KernelNames editTrees(const Scene& scene, const Grid& grid)
+{
+    KernelNames names;
+    const float emission_scale = brightestEmission(scene);
+    for (const bool attributes : {true, false})
+    {
+        const float scale = attributes ? emission_scale : 0;
+        const GpuScene gpu_scene = uploadScene(device(), scene, attributes, scale);
+        BuildOptions build;
+        build.attributes = attributes;
+        build.keep_sums = attributes;
+        if (attributes)
+        {
+            names.merge(editVoxels(buildOctree(device(), gpu_scene, grid, build).octree, attributes, scale));
+        }
+        BuildResult built = buildOctree(device(), gpu_scene, grid, build);
+        names.merge(editVoxels(compress(device(), std::move(built.octree)).dag, attributes, scale));
+    }
+    return names;
+}
+
+TEST(EveryKernel, OfBrushesRunsOnASmallScene)
+{
+    test::expectAllRan(editTrees(test::smallScene(), {.origin = glm::vec3(0.0F), .voxel_size = 0.25F, .depth = 6}),
+                       true);
+}
+
+} // namespace
+} // namespace zvo

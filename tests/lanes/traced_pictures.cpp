@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: MIT
+#include "lanes/traced_pictures.h"
+
+#include "core/denoise/denoiser.h"
+#include "core/headless/attribute_packer.h"
+#include "core/path/path_tracer.h"
+#include "core/present/present.h"
+#include "core/radiance/radiance_tracer.h"
+#include "core/trace/trace.h"
+#include "core/trace/trace_depth.h"
+#include "support/engine_device.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <vector>
+
+namespace zvo::test
+{
+
+KernelNames tracePictures(const DeviceTree& tree)
+{
+    KernelNames names;
+    const ViewCamera view = ViewCamera::lookAt({25.0, 22.0, 31.0}, {8.0, 8.0, 8.0}, 0.7);
+    BeamGrid beam(device().device(), tree.isDag());
+    TraceBuffers buffers(device().device(), 17, 9);
+    addNames(names, device().run([&](vk::FrameGraph& graph) { buildBeam(graph, tree, beam); }));
+    for (const TraceStack stack : {TraceStack::Registers, TraceStack::Private, TraceStack::Shared})
+    {
+        if (tree.isDag() && stack != TraceStack::Registers)
+        {
+            continue; // lists and stacks are independent, and compiling each variant takes time
+        }
+        for (const View shown : {View::Color, View::Iterations})
+        {
+            TraceOptions options;
+            options.view = shown;
+            options.stack = stack;
+            options.occlusion_rays = 2;
+            options.beam = stack != TraceStack::Private;
+            const TraceCamera camera = traceCamera(view, tree.grid, buffers.height);
+            addNames(names,
+                     device().run([&](vk::FrameGraph& graph) { trace(graph, tree, beam, camera, options, buffers); }));
+        }
+    }
+    TraceOptions coarse;
+    coarse.detail_level = 2;
+    const TraceCamera camera = traceCamera(view, tree.grid, buffers.height);
+    addNames(names, device().run([&](vk::FrameGraph& graph) { trace(graph, tree, beam, camera, coarse, buffers); }));
+    vk::BufferOf<gpu::PixelReport> report(device().device(), "report", 1);
+    addNames(names, device().run(
+                        [&](vk::FrameGraph& graph) {
+                            inspectPixel(graph, tree, camera, coarse, buffers, {8, 4}, report);
+                        }));
+    const gpu::Ray ray = {{1.1F, 1.2F, 1.3F}, 0.0F, {-1.0F, -2.0F, 3.0F}, 4.0F};
+    const vk::BufferOf<gpu::Ray> rays = device().makeBuffer<gpu::Ray>("rays", std::vector<gpu::Ray>(3, ray));
+    vk::BufferOf<gpu::Hit> hits(device().device(), "hits", rays.count());
+    vk::BufferOf<gpu::DispatchArgs> rounds(device().device(), "rounds", gpu::kTraceRoundsMax);
+    vk::BufferOf<gpu::TraceStatus> status(device().device(), "status", 1);
+    addNames(names, device().run(
+                        [&](vk::FrameGraph& graph)
+                        {
+                            graph.fill(status, 0);
+                            traceRays(graph, tree, rays, hits, rounds, status, {});
+                        }));
+    return names;
+}
+
+KernelNames tracePaths(const DeviceTree& tree)
+{
+    DeviceEnvironment sky(device().device());
+    PathTracer tracer(device().device());
+    Denoiser denoiser(device().device());
+    Developer developer(device().device());
+    denoiser.resize(9, 10);
+    const ViewCamera view = ViewCamera::lookAt({25.0, 22.0, 31.0}, {8.0, 8.0, 8.0}, 0.7);
+    const TraceCamera camera = traceCamera(view, tree.grid, 10);
+    vk::BufferOf<gpu::uint> picture(device().device(), "picture", 90);
+    KernelNames names;
+    for (const PathForm form : {PathForm::Stages, PathForm::OneKernel})
+    {
+        tracer.resize(9, 10, form);
+        for (const bool features : {false, true, true})
+        {
+            tracer.forget();
+            addNames(names, device().run(
+                                [&](vk::FrameGraph& graph)
+                                {
+                                    tracer.addSample(graph, tree, sky, camera, {.bounces = 1, .features = features});
+                                    if (features)
+                                    {
+                                        denoiser.denoise(graph, tracer.guided(), 4);
+                                    }
+                                    developer.develop(graph, tracer.picture(), TexelFormat::Rgba8, {}, picture);
+                                }));
+        }
+    }
+    return names;
+}
+
+KernelNames keepLight(const DeviceTree& tree)
+{
+    DeviceEnvironment sky(device().device());
+    RadianceTracer tracer(device().device());
+    const ViewCamera view = ViewCamera::lookAt({25.0, 22.0, 31.0}, {8.0, 8.0, 8.0}, 0.7);
+    KernelNames names;
+    for (const std::uint32_t height : {10U, 11U})
+    {
+        tracer.resize(9, height);
+        const TraceCamera camera = traceCamera(view, tree.grid, height);
+        const KeptView kind = height == 10 ? KeptView::Faces : KeptView::Cones;
+        for (std::uint32_t frame = 0; frame < 2; ++frame)
+        {
+            addNames(names, device().run([&](vk::FrameGraph& graph)
+                                         { tracer.addFrame(graph, tree, sky, camera, {.faces = 100}, kind); }));
+        }
+    }
+    return names;
+}
+
+KernelNames tracePacked(BuildResult built, AttributeFormat format)
+{
+    KernelNames names;
+    addNames(names, packTree(device(), format, built.octree));
+    EXPECT_EQ(built.octree.attributeFormat(), format);
+    names.merge(tracePictures(built.octree));
+    return names;
+}
+
+KernelNames traceForHosts(const DeviceTree& tree)
+{
+    KernelNames names;
+    ViewCamera view = ViewCamera::lookAt({25.0, 22.0, 31.0}, {8.0, 8.0, 8.0}, 0.7);
+    view.half_height = 12.0;
+    const BeamGrid beam(device().device(), tree.isDag()); // not used
+    ClipDepth clip;                                       // 1 / (1 + distance)
+    clip.z.w = 1.0;
+    clip.w = glm::dvec4(view.forward, 1.0 - glm::dot(view.forward, view.position));
+    clip.miss = 0.0F;
+    for (const TexelFormat format : {TexelFormat::Bgra8, TexelFormat::Rgb10, TexelFormat::Half})
+    {
+        TraceBuffers buffers(device().device(), 17, 9, format);
+        vk::BufferOf<float> depth(device().device(), "depth", buffers.hits.count());
+        view.orthographic = format == TexelFormat::Half;
+        const TraceCamera camera = traceCamera(view, tree.grid, buffers.height);
+        for (const View shown : {View::Color, View::Albedo})
+        {
+            TraceOptions options;
+            options.view = shown;
+            options.beam = false;
+            options.shadows = false;
+            addNames(names, device().run(
+                                [&](vk::FrameGraph& graph)
+                                {
+                                    trace(graph, tree, beam, camera, options, buffers);
+                                    traceDepth(graph, tree.grid, camera, clip, buffers, depth);
+                                }));
+        }
+        const std::vector<float> depths = device().download(depth);
+        EXPECT_GT(*std::ranges::max_element(depths), 0.0F);
+    }
+    return names;
+}
+
+KernelNames scalePictures()
+{
+    const std::vector<gpu::uint> from = {1, 2, 3, 4, 5, 6};
+    const vk::BufferOf<gpu::uint> small = device().makeBuffer<gpu::uint>("picture", from);
+    vk::BufferOf<gpu::uint> wide(device().device(), "wide picture", 12);
+    vk::BufferOf<gpu::uint> narrow(device().device(), "narrow picture", 2);
+    KernelNames names;
+    addNames(names, device().run(
+                        [&](vk::FrameGraph& graph)
+                        {
+                            scalePicture(graph, small, {3, 2}, wide, {6, 2});
+                            scalePicture(graph, small, {3, 2}, narrow, {1, 2});
+                        }));
+    EXPECT_EQ(device().download(wide), (std::vector<gpu::uint>{1, 1, 2, 2, 3, 3, 4, 4, 5, 5, 6, 6}));
+    EXPECT_EQ(device().download(narrow), (std::vector<gpu::uint>{2, 5}));
+    return names;
+}
+
+} // namespace zvo::test

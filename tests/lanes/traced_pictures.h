@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: MIT
+// Small pictures by all of the kernels that make some. All functions return the names of the kernels that have run.
+#pragma once
+
+#include "core/headless/pipeline.h"
+#include "core/tree/device_tree.h"
+#include "lanes/kernel_names.h"
+
+namespace zvo::test
+{
+
+/// Traces pictures by every path of the tracer.
+KernelNames tracePictures(const DeviceTree& tree);
+
+/// Traces paths through a tree with emissive voxels, in both forms, for two pictures that are denoised.
+KernelNames tracePaths(const DeviceTree& tree);
+
+/// Keeps light on the voxels of a tree, in pictures of two sizes, of which the second is seen through cones.
+KernelNames keepLight(const DeviceTree& tree);
+
+/// Traces pictures of the octree with packed attributes. Pictures of all formats are traced.
+KernelNames tracePacked(BuildResult built, AttributeFormat format);
+
+/// Traces pictures in the texel formats of hosts' images, lit and unlit, with depth.
+KernelNames traceForHosts(const DeviceTree& tree);
+
+/// Scales a picture of 3 x 2 pixels to twice and to a third of its width.
+KernelNames scalePictures();
+
+} // namespace zvo::test
