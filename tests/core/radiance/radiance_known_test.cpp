@@ -104,8 +104,8 @@ TEST(RadianceFurnace, AGlowingRoomHasTheLightOfAllBounces)
     EXPECT_NEAR(picture.luminance, expected, 0.005 * expected);
 }
 
-// In the first frame no face keeps light that others could reflect. A path that hits one goes on, so light of two bounces
-// arrives.
+// In the first frame no face keeps light that others could reflect. A path that hits one goes on, so light of two
+// bounces arrives.
 TEST(RadianceFurnace, TheFirstFrameHasTwoBounces)
 {
     const LitVoxel wall = {{}, glm::uvec3(188), glm::vec3(0.5F)};
