@@ -206,16 +206,14 @@ public:
                 cone_ms.push_back(sumMs(passes) - sumOfViews(passes) + addCones(tracer, cones));
             }
             KeptRow row = rowOf("cached", count);
-            compareKept(row, reference, tracer.picture(), path, tracer.cache());
             row.frame_ms = medianOf(ms);
             row.total_ms = totalOf(ms);
-            compareTimes(row, path);
+            compareKept(row, reference, tracer.picture(), path, tracer.cache());
             rows.push_back(row);
             row = rowOf("cones", count);
-            compareKept(row, reference, cones.picture(), path, tracer.cache());
             row.frame_ms = medianOf(cone_ms);
             row.total_ms = settled_ms + totalOf(cone_ms);
-            compareTimes(row, path);
+            compareKept(row, reference, cones.picture(), path, tracer.cache());
             rows.push_back(row);
         }
         return rows;
@@ -235,28 +233,22 @@ private:
         return row;
     }
 
+    // Compares a row, of which the times are known.
     void compareKept(KeptRow& row, const HdrImage& reference, const SampledPicture& picture, const KeptRow& path,
                      const RadianceCache& cache)
     {
         row.quality = compareTo(reference, imageOf(picture));
         row.noise = m_noise;
-        // The error of paths falls with the square root of their number. Squares of errors, the reference's own among
-        // them, add up.
+        // An estimate: the error of paths falls with the square root of their number, and those of a picture and of
+        // the reference are independent, so that their squares add up.
         const double square = std::pow(row.quality->relative, 2.0) - std::pow(m_noise.value_or(0.0), 2.0);
         const double path_square = std::pow(path.quality->relative, 2.0) - std::pow(m_noise.value_or(0.0), 2.0);
         if (square > 0.0 && path_square > 0.0)
         {
             row.paths_of_error = path.count * path_square / square;
-        }
-        row.bytes_of_voxel = static_cast<double>(cache.bytes()) / static_cast<double>(m_scene.tree.voxel_count);
-    }
-
-    static void compareTimes(KeptRow& row, const KeptRow& path)
-    {
-        if (row.paths_of_error)
-        {
             row.of_their_time = row.total_ms / (*row.paths_of_error * path.frame_ms);
         }
+        row.bytes_of_voxel = static_cast<double>(cache.bytes()) / static_cast<double>(m_scene.tree.voxel_count);
     }
 
     // Adds what cones see in the tracer's last frame. Returns the milliseconds.
@@ -327,6 +319,9 @@ Json keptReportJson(const vk::DeviceReport& device, const BenchOptions& options,
         if (row.paths_of_error)
         {
             entry["paths_of_error"] = *row.paths_of_error;
+        }
+        if (row.of_their_time)
+        {
             entry["of_their_time"] = *row.of_their_time;
         }
         if (row.bytes_of_voxel)

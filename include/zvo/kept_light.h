@@ -63,11 +63,11 @@ public:
     /// or whose frame was lost. The environment must live for as long as shaders read.
     ///
     /// Memory, from the first call on: a table of 1.5 slots for each face that there is room for, 32 bytes a slot; for
-    /// a DynamicTree a second one, for others once the tree or the number of rays is another; about 300 bytes for each
+    /// a DynamicTree a second one, for others once the tree or the number of rays is another; about 360 bytes for each
     /// of the rays; and what Tracer::tracePaths() takes for lights of the tree. First stages: ALL_TRANSFER,
     /// COMPUTE_SHADER and DRAW_INDIRECT; last stages: COMPUTE_SHADER and ALL_TRANSFER; on resources of zvo. Before the
     /// host's shaders read: Recorder::makeVisible(); before the next call: readers of its Recorder. Cost: the camera's
-    /// rays, and two rays for each face that is sampled.
+    /// rays, and up to two rays and two shadow rays for each face that is sampled.
     ///
     /// Throws Error{Usage} for cameras that are not valid, for numbers out of range, and for an environment or a tree
     /// that was lost; then nothing is recorded. Throws Error{Memory}, and what making a kernel throws; then shaders

@@ -39,6 +39,7 @@ layout(push_constant, scalar) uniform Push
 #include "path/emitting_voxel.glsl"
 #include "path/leave.glsl"
 #include "path/next_ray.glsl"
+#include "path/list_chosen.glsl"
 
 void main()
 {
@@ -76,14 +77,5 @@ void main()
     // A light to look for.
     if (kSampling == kSampleChance)
         return;
-    bool in_map = seeksMapLight(next);
-    uint map_light = appendTo(params.bounce, kListMapLights, in_map);
-    if (in_map)
-        params.numbers.data[kListMapLights * params.batch + map_light] = next_path;
-    if (!kEmission)
-        return;
-    bool in_voxels = seeksVoxelLight(next);
-    uint voxel_light = appendTo(params.bounce, kListVoxelLights, in_voxels);
-    if (in_voxels)
-        params.numbers.data[kListVoxelLights * params.batch + voxel_light] = next_path;
+    listChosen(next, next_path, params.bounce);
 }

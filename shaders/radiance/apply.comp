@@ -22,6 +22,7 @@ layout(push_constant, scalar) uniform Push
 #include "radiance/face_key.glsl"
 #include "radiance/face_table.glsl"
 #include "radiance/kept_light.glsl"
+#include "radiance/plane.glsl"
 #include "radiance/between_faces.glsl"
 #include "radiance/brick_sum.glsl"
 #include "radiance/share_of_brick.glsl"

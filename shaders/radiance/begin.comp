@@ -30,13 +30,13 @@ layout(push_constant, scalar) uniform Push
 #include "light/importance.glsl"
 #include "path/leave.glsl"
 #include "path/lists.glsl"
+#include "path/list_chosen.glsl"
 #include "path/point_of_face.glsl"
 #include "radiance/face_key.glsl"
 #include "radiance/face_table.glsl"
 #include "radiance/insert_face.glsl"
 #include "radiance/kept_light.glsl"
 #include "radiance/list_brick.glsl"
-#include "radiance/list_chosen.glsl"
 
 void main()
 {

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Light between the faces of a plane. The includer includes lib/hit.glsl, radiance/face_table.glsl and
-// radiance/kept_light.glsl before.
-#include "radiance/plane.glsl"
+// Light between the faces of a plane. The includer includes lib/hit.glsl, radiance/face_table.glsl,
+// radiance/kept_light.glsl and radiance/plane.glsl before.
 
 // The light at a place on a face, from those four faces with the same normal in the same plane whose middles are around
 // it, as far as they keep any; then w is more than 0, and xyz are to be divided by it. Likewise between bricks. cell:

@@ -9,8 +9,6 @@
 #include "lib/dispatch.glsl"
 #include "lib/frame.glsl"
 #include "lib/hit.glsl"
-#include "lib/morton.glsl"
-#include "lib/node.glsl"
 #include "lib/ray.glsl"
 #include "lib/sobol.glsl"
 #include "lib/surface_normal.glsl"
@@ -38,11 +36,12 @@ const bool kRoulette = false;
 #include "path/hit_voxel.glsl"
 #include "path/leave.glsl"
 #include "path/next_ray.glsl"
+#include "path/list_chosen.glsl"
 #include "radiance/face_key.glsl"
 #include "radiance/face_table.glsl"
 #include "radiance/kept_light.glsl"
+#include "radiance/plane.glsl"
 #include "radiance/light_of_neighbors.glsl"
-#include "radiance/list_chosen.glsl"
 
 void main()
 {

@@ -1,7 +1,8 @@
 #version 460
 // SPDX-License-Identifier: MIT
 // Adds the light that the faces reflect which paths have hit, and wants these faces in the next frame. Paths that have
-// met other light are listed, and those that have hit a face without light.
+// met other light are listed, and those that have hit a face without light. Of those, the second rays of paths take the
+// light of the faces beside it, or none.
 #extension GL_GOOGLE_include_directive : require
 #include "radiance/radiance.h"
 #include "lib/attribute_formats.glsl"
@@ -36,6 +37,7 @@ const uint kNodeLevels = 0u; // no hit is a node's
 #include "radiance/hit_loads.glsl"
 #include "radiance/kept_light.glsl"
 #include "radiance/insert_face.glsl"
+#include "radiance/plane.glsl"
 #include "radiance/light_of_neighbors.glsl"
 #include "radiance/want_face.glsl"
 

@@ -1,17 +1,16 @@
 // SPDX-License-Identifier: MIT
-// Light of the faces around one that keeps none. The includer includes lib/hit.glsl, radiance/face_table.glsl and
-// radiance/kept_light.glsl before.
-#include "radiance/plane.glsl"
+// Light of the faces beside one that keeps none. The includer includes lib/hit.glsl, radiance/face_table.glsl,
+// radiance/kept_light.glsl and radiance/plane.glsl before; params has states, too, and STATES_BINDING is defined.
 
-// The mean light that the four faces with the same normal keep which share an edge with a face. No wall is between
-// them: the voxel over each of them is empty. is_lit: whether any keeps light.
+// The mean light of the faces that touch a face in its plane, up to four, as far as they keep any. Their light was not
+// behind a wall, since the voxel over each was empty when it arrived. is_lit: whether any keeps light.
 vec3 lightOfNeighbors(uvec3 cell, uint normal, out bool is_lit)
 {
     vec4 sum = vec4(0.0);
     for (uint k = 0u; k < 4u; ++k)
     {
-        int step = (k & 1u) != 0u ? 1 : -1;
-        ivec3 steps = stepInPlane(normal, (k & 2u) != 0u ? ivec2(step, 0) : ivec2(0, step));
+        int side = (k & 1u) != 0u ? 1 : -1;
+        ivec3 steps = stepInPlane(normal, (k & 2u) != 0u ? ivec2(side, 0) : ivec2(0, side));
         KeptFace face;
         uint slot = findFace(uvec3(ivec3(cell) + steps) & kHitCoordinateMask, normal, 0u, face);
         if (slot != kNoFace && keptWeight(face.light) != 0u)

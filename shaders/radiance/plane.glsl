@@ -8,15 +8,15 @@ ivec3 stepInPlane(uint normal, ivec2 steps)
     return axis == 0u ? ivec3(0, steps) : axis == 1u ? ivec3(steps.x, 0, steps.y) : ivec3(steps, 0);
 }
 
-// One of the four faces of a plane whose middles are around a place.
+// One of the four faces of a plane between which the light at a place is interpolated.
 struct NearFace
 {
     ivec3 steps; // from the cell of the face that the place is on
     float share; // of the light at the place; those of the four add up to 1
 };
 
-// k: 0 to 3; 0 is the face that the place is on. offset: of the place, from the middle of the cell. towards: 1;
-// -1: the faces on the other sides of that face.
+// k: 0 to 3; 0 is the face that the place is on. offset: of the place, from the middle of the cell. towards: 1 for the
+// other three on the side of the place, whose middles are around it; -1 for those away from it.
 NearFace nearFace(uint k, uint normal, vec3 offset, int towards)
 {
     uint axis = normal % 3u;

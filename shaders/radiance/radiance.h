@@ -9,9 +9,10 @@
 // light, a voxel keeps it while something else stands around it, and whoever knows a position and a normal finds it
 // without a ray. A face enters the table when a ray from the camera, or from another face, hits it.
 //
-// A face notes when one of its rays hits a voxel of an overlay. While something moves, means of faces that have done so
-// lately count fewer samples: few where the ray went to a light, or where it has happened twice within some frames, for
-// then what moves matters there. So its shadows come and go within some frames, and other light stays smooth.
+// A face notes when the first ray of a path from it, or the ray to its first light, hits a voxel of an overlay. While
+// something moves, means of faces that have done so lately count fewer samples: few where the ray went to a light, or
+// where it has happened twice within some frames, for then what moves matters there. So its shadows come and go within
+// some frames, and other light stays smooth.
 //
 // Bricks have means, too: a brick of level l is a cube of 4^l cells, a node of the tree, and keeps the light of all
 // faces in it that have the same normal. Its samples are theirs. A face with few samples shows a mean of its own light
@@ -24,8 +25,8 @@
 // chosen, with a shadow ray to it (path/path.h). So light of one more bounce arrives with each frame.
 //
 // A face that has had no sample keeps no light. A path that hits one takes the light of the faces beside it, in the
-// same plane, if they have had any; else it goes on by a second ray and a second light. If it took no light, samples
-// would be too dark until all faces have had some, and means would keep that for long.
+// same plane, if they have had any; else it goes on by a second ray and a second light, and ends there. If it took no
+// light, samples would be too dark until all faces have had some, and means would keep that for long.
 //
 //   radiance/want      faces that the camera sees: into the table, and into the frame's list
 //   radiance/tally     counts the faces of the list by their rank; its last threads find the rank that the budget ends
@@ -104,7 +105,8 @@ const uint kMarkFrames = (1u << 15) - 1u; // of a mark
 const uint kMarkMovedShift = 15u;
 const uint kMarkMovedFrames = (1u << 14) - 1u;
 
-// In PathBatch::numbers, of kListPaths, beside a slot: the path's ray has hit what moves; its ray to a light has.
+// In PathBatch::numbers, of kListPaths, beside a slot: the path's first ray has hit what moves; that to its first
+// light has.
 const uint kFaceSlotsMax = 1u << 30;
 const uint kPathTouched = 1u << 30;
 const uint kPathMoved = 1u << 31;
@@ -144,7 +146,7 @@ struct RadianceWantParams // push constants of radiance/want: a workgroup for ea
     GPU_PTR(KeptFace) faces;
     GPU_PTR(FaceState) states;
     GPU_PTR(RadianceCounters) counters;
-    GPU_PTR(uint) wanted; // [batch of faces] slots
+    GPU_PTR(uint) wanted; // [RadianceLists::wanted] slots
     GPU_PTR(DispatchArgs) lists;
     GPU_CONST_PTR(Hit) hits;
     GPU_CONST_PTR(uvec2) live;
@@ -226,7 +228,7 @@ struct RadianceGatherParams // push constants of radiance/gather: a thread a pat
     GPU_PTR(KeptFace) faces;
     GPU_PTR(FaceState) states;
     GPU_PTR(RadianceCounters) counters;
-    GPU_PTR(uint) wanted; // of the next frame
+    GPU_PTR(uint) wanted; // of the next frame, as in RadianceWantParams
     GPU_PTR(DispatchArgs) lists;
     GPU_PTR(uint) numbers;
     GPU_CONST_PTR(Attribute) attributes; // of voxels, in the format of kFormat
@@ -255,14 +257,14 @@ struct RadianceExtendParams // push constants of radiance/extend: a thread a pat
     GPU_CONST_PTR(Hit) hits;
     GPU_CONST_PTR(vec2) gives;            // [kNormals] as Environment::gives
     GPU_CONST_PTR(LightNode) light_nodes; // kEmission only
-    GPU_CONST_PTR(Ray) rays;
+    GPU_CONST_PTR(Ray) rays;              // [batch] first rays of paths, like the next
     GPU_CONST_PTR(PathState) path_states;
-    GPU_PTR(Ray) next_rays;
+    GPU_PTR(Ray) next_rays; // [batch] second ones, like the next
     GPU_PTR(PathState) next_states;
     GPU_PTR(DispatchArgs) lists;
-    GPU_PTR(uint) numbers;
-    GPU_CONST_PTR(uint) unlit;
-    GPU_PTR(vec3) radiance;
+    GPU_PTR(uint) numbers;     // [kListCount][batch] as in PathShadeParams
+    GPU_CONST_PTR(uint) unlit; // [batch] as in RadianceGatherParams
+    GPU_PTR(vec3) radiance;    // [batch]
     uint batch;
     uint run_count;
     uint sample_index;

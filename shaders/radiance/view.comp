@@ -37,6 +37,7 @@ layout(push_constant, scalar) uniform Push
 #include "radiance/face_key.glsl"
 #include "radiance/face_table.glsl"
 #include "radiance/kept_light.glsl"
+#include "radiance/plane.glsl"
 #include "radiance/between_faces.glsl"
 #include "radiance/light_of_brick.glsl"
 #include "radiance/hit_loads.glsl"

@@ -1,7 +1,7 @@
 #version 460
 // SPDX-License-Identifier: MIT
 // Lists the faces that the camera sees, a workgroup for each live tile. Of each 2x2 pixels some take part in a
-// frame, others in the next.
+// frame, in turns.
 #extension GL_GOOGLE_include_directive : require
 #include "radiance/radiance.h"
 #include "lib/bound.glsl"
@@ -53,7 +53,7 @@ void main()
     uvec2 corner = kTileEdge * unpackTile(exists ? tile.x : 0u) + 2u * pixelInTile(gl_LocalInvocationIndex);
     for (uint turn = 0u; turn < kTurns; ++turn)
     {
-        uint place = params.frame + turn;
+        uint place = params.frame * kTurns + turn;
         wantSeen(corner + uvec2(place & 1u, (place >> 1) & 1u), exists);
     }
 }

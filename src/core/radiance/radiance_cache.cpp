@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "core/radiance/radiance_cache.h"
 
-#include "vk/device.h"
-
 #include <algorithm>
 #include <utility>
 
@@ -43,7 +41,7 @@ bool isSince(const std::optional<std::uint32_t>& since, std::uint32_t frame, std
 std::uint64_t RadianceCache::bytes() const
 {
     return m_status.bytes() + m_lights.bytes() + (m_table == nullptr ? 0 : m_table->bytes()) +
-           (m_other_table == nullptr ? 0 : m_other_table->bytes()) + (m_buffers == nullptr ? 0 : m_buffers->bytes());
+           (m_other_table == nullptr ? 0 : m_other_table->bytes()) + (m_lists == nullptr ? 0 : m_lists->bytes());
 }
 
 void RadianceCache::reserveFaces(std::uint64_t face_count)
@@ -71,7 +69,7 @@ void RadianceCache::reserve(const DeviceTree& tree, std::uint32_t width, std::ui
     }
     const std::uint32_t faces = std::clamp(options.faces, 1U, kRadianceFacesMax);
     const bool needs_lists =
-        m_buffers == nullptr || m_buffers->faces != faces || m_buffers->width != width || m_buffers->height != height;
+        m_lists == nullptr || m_lists->faces != faces || m_lists->width != width || m_lists->height != height;
     if ((m_other_table == nullptr || m_other_table->run_count != m_table->run_count) &&
         (tree.hasOverlays() || (m_frame != 0 && (needs_lists || m_tree_version != tree.version))))
     {
@@ -79,7 +77,7 @@ void RadianceCache::reserve(const DeviceTree& tree, std::uint32_t width, std::ui
     }
     if (needs_lists)
     {
-        vk::replace(m_deletion_queue, m_buffers, std::make_unique<RadianceLists>(m_device, faces, width, height));
+        vk::replace(m_deletion_queue, m_lists, std::make_unique<RadianceLists>(m_device, faces, width, height));
         m_has_new_lists = true;
     }
 }
@@ -122,7 +120,7 @@ void RadianceCache::follow(vk::FrameGraph& graph, const DeviceTree& tree, const 
 void RadianceCache::purge(vk::FrameGraph& graph, std::uint32_t age_max)
 {
     std::swap(m_table, m_other_table);
-    keepFaces(graph, *m_other_table, *m_table, *m_buffers, m_frame, age_max);
+    purgeFaces(graph, *m_other_table, *m_table, *m_lists, m_frame, age_max);
     m_purge_frame = m_frame;
     m_has_new_lists = false;
 }
@@ -136,14 +134,15 @@ void RadianceCache::update(vk::FrameGraph& graph, const DeviceTree& tree, Device
     follow(graph, tree, environment);
     const std::uint32_t frame = std::exchange(m_frame, 0); // should anything below throw
     const RadianceFrame work = {.table = *m_table,
-                                .lists = *m_buffers,
+                                .lists = *m_lists,
                                 .tree = tree,
                                 .environment = environment,
                                 .lights = m_lights,
                                 .status = m_status,
                                 .camera = camera,
                                 .seen = seen,
-                                .options = options,
+                                .seed = options.seed,
+                                .stack = options.stack,
                                 .number = frame,
                                 .moves = isSince(m_move_frame, frame, gpu::kMovedFrames),
                                 .window = isSince(m_change_frame, frame, kChangedFrames)

@@ -77,7 +77,7 @@ private:
     vk::BufferOf<gpu::TraceStatus> m_status; // [1]
     TreeLights m_lights;
     std::unique_ptr<RadianceTable> m_table;
-    std::unique_ptr<RadianceLists> m_buffers;
+    std::unique_ptr<RadianceLists> m_lists;
     bool m_has_new_lists = false; // since the last update: marks of what the last ones held stand in the table
     std::unique_ptr<RadianceTable> m_other_table; // where faces are moved to; null until some may be
     std::uint32_t m_frame = 0;                    // 0: the table is to be cleared

@@ -135,7 +135,7 @@ void begin(vk::FrameGraph& graph, const RadianceFrame& frame)
     params.batch = static_cast<std::uint32_t>(batch.capacity());
     params.run_count = frame.table.run_count;
     params.sample_index = frame.number;
-    params.seed = frame.options.seed;
+    params.seed = frame.seed;
     pass.dispatchIndirect(batch.lists, listArgs(0, gpu::kListPaths), params,
                           divideUp(frame.lists.faces, gpu::kPathGroup));
 }
@@ -285,11 +285,11 @@ std::uint64_t RadianceTable::bytes() const
     return faces.bytes() + states.bytes() + counters.bytes();
 }
 
-RadianceLists::RadianceLists(vk::Device& device, std::uint32_t frame_faces, std::uint32_t picture_width,
+RadianceLists::RadianceLists(vk::Device& device, std::uint32_t face_count, std::uint32_t picture_width,
                              std::uint32_t picture_height)
-    : faces(frame_faces), width(picture_width), height(picture_height)
+    : faces(face_count), width(picture_width), height(picture_height)
 {
-    // The camera lists as many faces as pixels want one, and the paths of a frame as many as there are.
+    // The camera lists a face for each pixel that takes part, and the paths of a frame one for each of their rays.
     const std::uint64_t wanted_max =
         kFaceRays * std::uint64_t{faces} + quadsOf(width, height) * wantingTurns(width, height, faces);
     const std::uint64_t brick_count = gpu::kBrickLevels * std::uint64_t{faces};
@@ -312,8 +312,8 @@ std::uint64_t RadianceLists::bytes() const
     return wanted[0].bytes() + wanted[1].bytes() + batch.bytes() + unlit.bytes() + bricks.bytes() + sums.bytes();
 }
 
-void keepFaces(vk::FrameGraph& graph, const RadianceTable& from, RadianceTable& to, RadianceLists& lists,
-               std::uint32_t frame, std::uint32_t age_max)
+void purgeFaces(vk::FrameGraph& graph, const RadianceTable& from, RadianceTable& to, RadianceLists& lists,
+                std::uint32_t frame, std::uint32_t age_max)
 {
     graph.fill(to.faces, 0);
     graph.fill(to.states, 0);
@@ -351,11 +351,12 @@ void sampleFaces(vk::FrameGraph& graph, const RadianceFrame& frame)
         {
             extend(graph, frame);
         }
+        // Only first rays are noted: what second ones find is the light of other faces.
         const PathLight light = {.tree = frame.tree,
                                  .environment = frame.environment,
                                  .lights = frame.lights,
                                  .status = frame.status,
-                                 .stack = frame.options.stack,
+                                 .stack = frame.stack,
                                  .sample_index = frame.number,
                                  .path_count = frame.lists.faces,
                                  .first_noted = ray == 0 ? frame.firstMoving() : std::nullopt};

@@ -33,7 +33,7 @@ inline constexpr std::uint32_t kRadianceFacesMax = 1U << 22;
 /// What is kept from frame to frame.
 struct RadianceTable
 {
-    RadianceTable(vk::Device& device, std::uint64_t run_count);
+    RadianceTable(vk::Device& device, std::uint64_t runs);
     [[nodiscard]] std::uint64_t bytes() const;
 
     std::uint32_t run_count;
@@ -45,13 +45,15 @@ struct RadianceTable
 /// What frames use in turns.
 struct RadianceLists
 {
-    RadianceLists(vk::Device& device, std::uint32_t faces, std::uint32_t width, std::uint32_t height);
+    RadianceLists(vk::Device& device, std::uint32_t face_count, std::uint32_t picture_width,
+                  std::uint32_t picture_height);
     [[nodiscard]] std::uint64_t bytes() const;
 
     std::uint32_t faces;
     std::uint32_t width;
     std::uint32_t height;
-    std::array<vk::BufferOf<gpu::uint>, 2> wanted; // slots of even and odd frames
+    std::array<vk::BufferOf<gpu::uint>, 2>
+        wanted; // slots of even and odd frames: for all rays and pixels that list one
     PathBatch batch;
     vk::BufferOf<gpu::uint> unlit;    // [faces] paths that have hit a face without light
     vk::BufferOf<gpu::uint> bricks;   // [kBrickLevels][faces] slots of those that are listed
@@ -69,10 +71,11 @@ struct RadianceFrame
     vk::BufferOf<gpu::TraceStatus>& status; // [1] of the rays
     const TraceCamera& camera;
     const TraceBuffers& seen; // filled by tracePrimary() of the same tree and camera without a level of detail
-    const RadianceOptions& options;
-    std::uint32_t number; // 0: nothing is kept yet
-    bool moves;           // something has moved lately
-    std::uint32_t window; // the most samples that means count
+    std::uint32_t seed;
+    std::optional<TraceStack> stack; // as in TraceOptions
+    std::uint32_t number;            // 0: nothing is kept yet
+    bool moves;                      // something has moved lately
+    std::uint32_t window;            // the most samples that means count
 
     /// The index of attributes from which on voxels are those of overlays, if there may be any.
     [[nodiscard]] std::optional<std::uint32_t> firstMoving() const
@@ -84,9 +87,9 @@ struct RadianceFrame
 /// Records the passes of a frame (shaders/radiance/radiance.h). Throws Error{Memory}.
 void sampleFaces(vk::FrameGraph& graph, const RadianceFrame& frame);
 
-/// Records the passes that fill a table with the faces of another one that a ray has hit in the last age_max frames
-/// before `frame`, and empty the lists, which named slots of the other.
-void keepFaces(vk::FrameGraph& graph, const RadianceTable& from, RadianceTable& to, RadianceLists& lists,
-               std::uint32_t frame, std::uint32_t age_max);
+/// Records the passes that fill a table with those faces of another one that a ray has hit in the last age_max frames
+/// before `frame`. They empty the lists, which named slots of the other table.
+void purgeFaces(vk::FrameGraph& graph, const RadianceTable& from, RadianceTable& to, RadianceLists& lists,
+                std::uint32_t frame, std::uint32_t age_max);
 
 } // namespace zvo

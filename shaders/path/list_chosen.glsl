@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Lists paths by the light that they look for. The includer includes path/leave.glsl and path/lists.glsl before; params
-// has numbers and batch, too.
+// Lists paths by the light that they look for. The includer includes path/leave.glsl and path/lists.glsl before, and
+// declares kEmission; params has numbers and batch, too.
 
 // set: of lists. All threads of a subgroup call this together.
 void listChosen(NextRay next, uint path, uint set)
