@@ -323,6 +323,31 @@ TEST(RadianceBudget, BoundsTheFacesOfAFrame)
     }
 }
 
+// Each pixel sees a face of its own on a wall from which no ray hits anything. As many pixels of each 2x2 list theirs
+// as the budget has room for, and all have done so as soon as can be.
+TEST(RadianceBudget, GivesEachPixelATurn)
+{
+    constexpr std::uint32_t kEdge = 32;
+    std::vector<LitVoxel> voxels;
+    test::addBox(voxels, {0, 0, 0}, {kEdge, kEdge, 1}, grey());
+    const DeviceTree tree = test::litTree(device(), voxels, 5);
+    DeviceEnvironment dark = constantSky(glm::vec3(0.0F));
+    const double distance = 48.0;
+    const double middle = 0.5 * kEdge;
+    const ViewCamera view =
+        ViewCamera::lookAt({middle, middle, 1.0 + distance}, {middle, middle, 0.0}, 2.0 * std::atan(middle / distance));
+    for (const std::uint32_t pixels_of_four : {1U, 2U, 4U})
+    {
+        RadianceTracer tracer(device().device());
+        tracer.resize(kEdge, kEdge);
+        for (std::uint32_t pixels = pixels_of_four; pixels <= 4; pixels += pixels_of_four)
+        {
+            runFrames(tracer, tree, dark, view, 1, {.faces = pixels_of_four * kEdge * kEdge / 4});
+            EXPECT_EQ(facesOf(tracer.cache()).size(), pixels * kEdge * kEdge / 4) << pixels_of_four;
+        }
+    }
+}
+
 TEST(RadianceBudget, GivesEachFaceATurn)
 {
     Hall hall;
