@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <vector>
 
 namespace zvo
@@ -128,6 +129,45 @@ TEST(RadianceFurnace, TheFirstFrameHasTwoBounces)
     ASSERT_GT(count, 500U);
     const double expected = 0.5 * (1.0 + test::albedoOf(wall).r);
     EXPECT_NEAR(mean / count, expected, 0.02 * expected);
+}
+
+// In the second frame a camera looks the other way. Of the faces that paths from there hit, an eighth are without light
+// beside faces that were sampled in the first frame. If they reflected none of that light, the mean would be 0.76, and
+// if they reflected it twice, 0.86.
+TEST(RadianceFurnace, FacesWithoutLightReflectThatBesideThem)
+{
+    const LitVoxel wall = {{}, glm::uvec3(188), glm::vec3(0.5F)};
+    const DeviceTree tree = test::litTree(device(), test::roomOf(wall, 32), 5);
+    DeviceEnvironment dark = constantSky(glm::vec3(0.0F));
+    RadianceTracer tracer(device().device());
+    tracer.resize(36, 36);
+    runFrames(tracer, tree, dark, ViewCamera::lookAt({16.2, 16.1, 16.3}, {1.0, 2.0, 3.0}, 2.2), 1, {});
+    const auto before = facesOf(tracer.cache());
+    const auto bricks = facesOf(tracer.cache(), 1);
+    runFrames(tracer, tree, dark, ViewCamera::lookAt({16.2, 16.1, 16.3}, {31.0, 30.0, 29.0}, 2.2), 1, {});
+    double mean = 0.0;
+    std::uint32_t count = 0;
+    for (const auto& [name, face] : facesOf(tracer.cache()))
+    {
+        const auto found = before.find(name);
+        const bool is_new = found == before.end() || found->second.samples == 0;
+        // Without a brick that has light, a face shows its own.
+        const bool is_alone = std::ranges::none_of(
+            bricks,
+            [&](const auto& brick)
+            {
+                return brick.first.normal == name.normal &&
+                       glm::all(glm::lessThanEqual(glm::abs(glm::ivec3(brick.first.cell) - glm::ivec3(name.cell / 4U)),
+                                                   glm::ivec3(1)));
+            });
+        if (face.samples == 1 && is_new && is_alone)
+        {
+            mean += face.radiance.r;
+            ++count;
+        }
+    }
+    ASSERT_GT(count, 1000U);
+    EXPECT_NEAR(mean / count, 0.81, 0.02);
 }
 
 // A wall of one voxel keeps all light of a lamp behind it, on its faces and in the picture.
