@@ -100,7 +100,7 @@ private:
         TreeTracer tracer(m_device.device());
         tracer.resize(kWidth, kHeight);
         PrimaryRays octree_rays(m_device, octree, camera, tracer);
-        row.beam_grid_ms = octree_rays.beamGridMs();
+        row.node_paths_ms = octree_rays.nodePathsMs();
         row.rays = primaryRayCount(tracer.buffers());
         row.hits = countHits(m_device, tracer.buffers());
         row.peak_device_bytes = m_device.device().memory().peakBytes();

@@ -276,7 +276,7 @@ private:
         row.enlarged_ms = Spread::of(enlarged_ms);
     }
 
-    // Time of the beam grid and primary rays.
+    // Time of the node paths, the beam and primary rays.
     double traceMs(const DeviceTree& tree, const TraceCamera& camera)
     {
         m_tracer.forget();
@@ -293,7 +293,7 @@ std::string tableHead(const vk::DeviceReport& device, std::uint32_t run_count)
 {
     return fmt::format("zvo {} on {} ({}, {}). GPU milliseconds: median (min-max), of all frames or, for rebuilds, "
                        "pictures and the larger grid, of {}. "
-                       "Trace: beam grid and primary rays, {}x{}.\n\n",
+                       "Trace: node paths, beam and primary rays, {}x{}.\n\n",
                        ZVO_VERSION_TEXT, device.name, device.type, device.driver, run_count, kWidth, kHeight) +
            columnNames(columns());
 }

@@ -142,7 +142,7 @@ public:
             return m_device.run([&](vk::FrameGraph& graph)
                                 { tracer.trace(graph, m_scene.tree, m_camera, TraceOptions()); });
         };
-        warmUp(m_device, trace); // and makes the beam grid
+        warmUp(m_device, trace); // and makes the node paths
         for (std::uint32_t run = 0; run < 7; ++run)
         {
             ms.push_back(sumMs(trace()));

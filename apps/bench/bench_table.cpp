@@ -142,7 +142,7 @@ Json rowJson(const BenchRow& row)
     json["embree_user_mrays_per_s"] = orNull(row.embree_user_mrays_per_s);
     json["embree_triangle_mrays_per_s"] = orNull(row.embree_triangle_mrays_per_s);
     json["peak_device_bytes"] = row.peak_device_bytes;
-    json["beam_grid_ms"] = row.beam_grid_ms;
+    json["node_paths_ms"] = row.node_paths_ms;
     json["rays"] = row.rays;
     json["hits"] = row.hits;
     json["embree_user_hits"] = orNull(row.embree_user_hits);

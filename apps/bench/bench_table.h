@@ -59,7 +59,7 @@ struct BenchRow
     Spread build_ms;
     Spread trace_ms;               // of the octree
     std::optional<DagNumbers> dag; // nothing if memory does not suffice for octree and DAG at once
-    double beam_grid_ms = 0;       // once for each octree; not part of other times
+    double node_paths_ms = 0;      // once for each octree; not part of other times
     std::uint64_t rays = 0;
     std::uint64_t hits = 0;                               // rays that hit a voxel
     std::optional<double> embree_user_mrays_per_s;        // through the same voxels

@@ -10,7 +10,7 @@ namespace zvo::cli
 
 PrimaryRays::PrimaryRays(vk::HeadlessDevice& device, const DeviceTree& tree, const TraceCamera& camera,
                          TreeTracer& tracer)
-    : m_device(device), m_tree(tree), m_camera(camera), m_tracer(tracer), m_beam_grid_ms(prepare())
+    : m_device(device), m_tree(tree), m_camera(camera), m_tracer(tracer), m_node_paths_ms(prepare())
 {
     trace();
 }

@@ -17,14 +17,14 @@ namespace zvo::cli
 class PrimaryRays
 {
 public:
-    /// Makes the tree's beam grid and traces a picture as a warm-up.
+    /// Makes the tree's node paths and traces a picture as a warm-up.
     PrimaryRays(vk::HeadlessDevice& device, const DeviceTree& tree, const TraceCamera& camera, TreeTracer& tracer);
 
-    /// Traces a picture and returns its passes: beam and primary rays. The beam grid is made first if it is another
+    /// Traces a picture and returns its passes: beam and primary rays. Node paths are made first if it is another
     /// tree's.
     std::vector<vk::PassTime> trace();
 
-    [[nodiscard]] double beamGridMs() const { return m_beam_grid_ms; }
+    [[nodiscard]] double nodePathsMs() const { return m_node_paths_ms; }
 
 private:
     double prepare();
@@ -33,7 +33,7 @@ private:
     const DeviceTree& m_tree;
     const TraceCamera& m_camera;
     TreeTracer& m_tracer;
-    double m_beam_grid_ms = 0;
+    double m_node_paths_ms = 0;
 };
 
 /// Times of pictures of an octree and of its DAG.

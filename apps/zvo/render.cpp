@@ -105,13 +105,13 @@ public:
             {
                 break;
             }
-            const std::vector<vk::PassTime> beam_passes = m_renderer.show(scene.tree());
+            const std::vector<vk::PassTime> paths_passes = m_renderer.show(scene.tree());
             if (i == 0)
             {
                 const StaticInfo& part = scene.info().fixed;
                 warnOfDropped(part.voxel_count + update.report.dynamic_count, part.dropped);
                 m_report.addAnimatedScene(scene, update);
-                m_report.addBeam(beam_passes);
+                m_report.addNodePaths(paths_passes);
             }
             m_has_warned = m_has_warned || warnOfDroppedTriangles(seconds, update.report.dropped);
             draw(i, m_camera_work.at(m_pictures.number(i), scene.animated().frames_per_second, camera));
@@ -139,10 +139,10 @@ public:
             {
                 break;
             }
-            const std::vector<vk::PassTime> beam_passes = m_renderer.show(tree);
+            const std::vector<vk::PassTime> paths_passes = m_renderer.show(tree);
             if (i == 0)
             {
-                m_report.addBeam(beam_passes);
+                m_report.addNodePaths(paths_passes);
             }
             draw(i, m_camera_work.at(m_pictures.number(i), animated.frames_per_second, camera));
             m_report.addFrame(std::move(frame));
@@ -162,7 +162,7 @@ public:
 private:
     void turn(const DeviceTree& tree, const ViewCamera& camera, const glm::dvec3& center)
     {
-        m_report.addBeam(m_renderer.show(tree));
+        m_report.addNodePaths(m_renderer.show(tree));
         for (std::uint32_t i = 0; goesOn(i); ++i)
         {
             const double turn = 2.0 * std::numbers::pi * m_pictures.number(i) / m_pictures.count();

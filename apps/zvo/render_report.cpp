@@ -124,7 +124,7 @@ Json RenderReport::json(std::uint64_t capped_rays, const RadianceCache* kept) co
     // Of many samples, kernels are summed up.
     const std::vector<vk::PassTime> picture =
         m_times.front().samples != 0 ? sumByName(m_times.front().passes) : m_times.front().passes;
-    for (const std::vector<vk::PassTime>* passes : {&m_beam_passes, &picture})
+    for (const std::vector<vk::PassTime>* passes : {&m_paths_passes, &picture})
     {
         const Json more = passesJson(*passes);
         json["passes"].insert(json["passes"].end(), more.begin(), more.end());
@@ -132,7 +132,7 @@ Json RenderReport::json(std::uint64_t capped_rays, const RadianceCache* kept) co
     json["bytes"]["peak_device"] = m_device.device().memory().peakBytes();
     json["trace_ms"] = trace_ms;
     json["shade_ms"] = shade_ms;
-    json["beam_grid_ms"] = sumMs(m_beam_passes);
+    json["node_paths_ms"] = sumMs(m_paths_passes);
     json["capped_rays"] = capped_rays;
     json["picture"] = {{"width", m_options.width}, {"height", m_options.height}, {"count", m_times.size()}};
     if (kept != nullptr)

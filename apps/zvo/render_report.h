@@ -41,8 +41,8 @@ public:
     /// Adds the static part of an animated scene, and its first update.
     void addAnimatedScene(const LiveScene& scene, const LiveUpdate& update);
 
-    /// Adds the passes of the first beam grid.
-    void addBeam(std::vector<vk::PassTime> passes) { m_beam_passes = std::move(passes); }
+    /// Adds the passes of the first node paths.
+    void addNodePaths(std::vector<vk::PassTime> passes) { m_paths_passes = std::move(passes); }
 
     void addPicture(PictureTimes times) { m_times.push_back(std::move(times)); }
 
@@ -66,7 +66,7 @@ private:
 
     const RenderOptions& m_options;
     vk::HeadlessDevice& m_device;
-    std::vector<vk::PassTime> m_beam_passes;
+    std::vector<vk::PassTime> m_paths_passes;
     std::vector<PictureTimes> m_times;
     std::string m_built;
     Json m_json;

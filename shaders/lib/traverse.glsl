@@ -24,7 +24,7 @@
 //   TRAVERSE_GROUP                     threads of the workgroup, in a compute shader that may be specialized for
 //                                      kStackShared
 //   TRAVERSE_PATHS                     optional: a constant, true where rays may begin below the root; not with kDetail
-//                                      or fewer than four levels. Then also, as trace/beam.h describes it:
+//                                      or fewer than four levels. Then also, as trace/node_paths.h describes it:
 //   TRAVERSE_PATHS_RELATIVE            a constant, false where the root's first child is node 1
 //   uvec2 loadPath(uint cell)          the nodes that contain a cell
 //   TRAVERSE_ENTRIES                   optional: hits in a DAG come with the index of the entry that named their leaf

@@ -46,7 +46,7 @@ struct ShadowParams // push constants of trace/shadow
     GPU_CONST_PTR(Hit) hits;
     GPU_CONST_PTR(Attribute) attributes;      // of voxels, in the format of kFormat
     GPU_CONST_PTR(Attribute) node_attributes; // kDetail only
-    GPU_CONST_PTR(uint64_t) paths;            // of trace/beam_paths; kPaths only
+    GPU_CONST_PTR(uint64_t) paths;            // of trace/node_paths; kPaths only
     GPU_PTR(TraceStatus) status;
     GPU_PTR(DispatchArgs) next_round; // [1] cleared: of the round that unfinished rays wait for; kMore only
     GPU_PTR(uint) light;              // [width * height] light that arrives; undefined in dead tiles

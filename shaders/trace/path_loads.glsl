@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Loads the nodes with which rays begin below the root, for lib/traverse.glsl. The includer declares the constants
 // kPaths and kPathsRelative, has buffer parameter `paths`, and sets g_paths.
-#include "trace/beam.h"
+#include "trace/node_paths.h"
 
-uint64_t_ConstPtr g_paths; // of trace/beam_paths
+uint64_t_ConstPtr g_paths; // of trace/node_paths
 
 #ifdef BOUND
 TEXELS_2(1, paths);

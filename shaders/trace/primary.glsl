@@ -3,7 +3,7 @@
 // another round. If the includer defines PRIMARY_RANKS, hits in a DAG get the ranks that are the indices of their
 // attributes (D. Dolonius, E. Sintorn, V. Kaempe, U. Assarsson, Compressing Color Data for Voxelized Surface Geometry,
 // 2017, who sum up during the traversal; here only the path of the hit is summed up).
-#include "trace/beam.h"
+#include "trace/node_paths.h"
 #include "lib/camera.glsl"
 #include "lib/dispatch.glsl"
 #include "lib/hit.glsl"

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What the kernels that trace rays share with the host. The beam grid and the light at hits are in beam.h and light.h.
+// What the kernels that trace rays share with the host. For where rays begin, see beam.h and node_paths.h; for the
+// light at hits, light.h.
 #ifndef ZVO_SHADERS_TRACE_TRACE_H
 #define ZVO_SHADERS_TRACE_TRACE_H
 
@@ -87,7 +88,7 @@ GPU_KERNEL_END
 struct PrimaryParams // push constants of trace/primary
 {
     GPU_CONST_PTR(Node) nodes;
-    GPU_CONST_PTR(uint64_t) paths; // of trace/beam_paths; kPaths only
+    GPU_CONST_PTR(uint64_t) paths; // of trace/node_paths; kPaths only
     GPU_CONST_PTR(uvec2) live;
     GPU_PTR(TraceStatus) status;
     GPU_PTR(DispatchArgs) next_round; // [1] cleared: of the round that unfinished rays wait for; kMore only
@@ -106,7 +107,7 @@ GPU_KERNEL_END
 struct PrimaryRanksParams // push constants of trace/primary_ranks
 {
     GPU_CONST_PTR(Node) nodes;
-    GPU_CONST_PTR(uint64_t) paths; // of trace/beam_paths and trace/beam_ranks
+    GPU_CONST_PTR(uint64_t) paths; // of trace/node_paths and trace/node_ranks
     GPU_CONST_PTR(uvec2) live;
     GPU_PTR(TraceStatus) status;
     GPU_PTR(DispatchArgs) next_round;

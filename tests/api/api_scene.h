@@ -42,7 +42,7 @@ inline CameraInfo apiCamera()
 
 inline std::vector<std::uint32_t> pictureOf(vk::HeadlessDevice& device, const DeviceTree& tree, View view)
 {
-    BeamGrid beam(device.device(), tree.isDag());
+    NodePaths paths(device.device(), tree.isDag());
     TraceBuffers buffers(device.device(), EmbeddingHost::kWidth, EmbeddingHost::kHeight);
     const ViewCamera camera = ViewCamera::lookAt({22, 17, 25}, {5, 5, 5}, 0.6);
     TraceOptions options;
@@ -50,8 +50,8 @@ inline std::vector<std::uint32_t> pictureOf(vk::HeadlessDevice& device, const De
     device.run(
         [&](vk::FrameGraph& graph)
         {
-            buildBeam(graph, tree, beam);
-            trace(graph, tree, beam, traceCamera(camera, tree.grid, buffers.height), options, buffers);
+            buildNodePaths(graph, tree, paths);
+            trace(graph, tree, paths, traceCamera(camera, tree.grid, buffers.height), options, buffers);
         });
     return device.download(buffers.image);
 }

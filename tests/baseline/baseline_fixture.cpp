@@ -21,14 +21,14 @@ constexpr std::uint32_t kHeight = 52;
 std::vector<gpu::Hit> zvoHits(const DeviceTree& tree, const TraceCamera& camera)
 {
     vk::HeadlessDevice& device = baselineDevice();
-    BeamGrid beam(device.device());
+    NodePaths paths(device.device());
     TraceBuffers buffers(device.device(), kWidth, kHeight);
     device.run(
         [&](vk::FrameGraph& graph)
         {
             graph.fill(buffers.hits, gpu::kHitMiss); // in dead tiles, too
-            buildBeam(graph, tree, beam);
-            tracePrimary(graph, tree, beam, camera, {}, buffers);
+            buildNodePaths(graph, tree, paths);
+            tracePrimary(graph, tree, paths, camera, {}, buffers);
         });
     return device.download(buffers.hits);
 }

@@ -146,10 +146,10 @@ TEST(HilbertCurve, GoesFromNeighbourToNeighbour)
 std::vector<gpu::Hit> hitsOf(const DeviceTree& tree, const ViewCamera& view)
 {
     TraceBuffers buffers(baselineDevice().device(), 96, 64);
-    const BeamGrid beam(baselineDevice().device());
+    const NodePaths paths(baselineDevice().device());
     const TraceCamera camera = traceCamera(view, tree.grid, 64);
     baselineDevice().run([&](vk::FrameGraph& graph)
-                         { tracePrimary(graph, tree, beam, camera, {.beam = false}, buffers); });
+                         { tracePrimary(graph, tree, paths, camera, {.beam = false}, buffers); });
     return baselineDevice().download(buffers.hits);
 }
 

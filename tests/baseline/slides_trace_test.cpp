@@ -34,9 +34,9 @@ using Hits = std::vector<gpu::Hit>;
 Hits zvosHits(const DeviceTree& octree, const TraceCamera& camera)
 {
     TraceBuffers buffers(slidesDevice().device(), kWidth, kHeight);
-    const BeamGrid beam(slidesDevice().device());
+    const NodePaths paths(slidesDevice().device());
     slidesDevice().run([&](vk::FrameGraph& graph)
-                       { tracePrimary(graph, octree, beam, camera, {.beam = false}, buffers); });
+                       { tracePrimary(graph, octree, paths, camera, {.beam = false}, buffers); });
     Hits hits = slidesDevice().download(buffers.hits);
     const std::vector<float> starts = slidesDevice().download(buffers.starts);
     const std::uint32_t tiles_x = (kWidth + gpu::kTileEdge - 1) / gpu::kTileEdge;

@@ -75,7 +75,7 @@ TEST_F(CliRun, BenchWithoutMemoryForTheDagTellsOfTheOctree)
                                                 "1",     "--json",   "bench.json",    "-f", "--passes"};
     run(arguments);
     const json whole = json::parse(file("bench.json"))["rows"][0];
-    // A limit that suffices only for the octree: the DAG's beam grid takes 8 MiB beside it.
+    // A limit that suffices only for the octree: the DAG's node paths take 4 MiB beside it.
     constexpr std::uint64_t kMiB = 1 << 20;
     Outcome outcome;
     for (std::uint64_t mib = whole["peak_device_bytes"].get<std::uint64_t>() / kMiB; outcome.err.empty(); mib -= 4)

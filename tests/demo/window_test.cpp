@@ -230,7 +230,7 @@ TEST_F(DemoWindow, PanelsShowEveryViewWithoutAWordFromTheLayers)
     {
         passes.insert(pass["name"]);
     }
-    for (const char* pass : {"trace/primary", "trace/inspect", "trace/beam_nodes", "update/merge", "present/scale",
+    for (const char* pass : {"trace/primary", "trace/inspect", "trace/beam", "update/merge", "present/scale",
                              "present/compose", "present/panels", "present/show"})
     {
         EXPECT_TRUE(passes.contains(pass)) << pass;

@@ -20,6 +20,7 @@
 #include "svdag/svdag.h"
 #include "trace/beam.h"
 #include "trace/light.h"
+#include "trace/node_paths.h"
 #include "trace/trace.h"
 #include "update/update.h"
 #include "voxelize/voxelize.h"

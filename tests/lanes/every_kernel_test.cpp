@@ -164,7 +164,7 @@ KernelNames mergeObjects(const Scene& scene, const Grid& grid, Coverage coverage
     EXPECT_EQ(voxelCodesOf(test::cellsOf(device(), octree.tree()), grid), oracle::voxelize(both, grid, coverage).codes);
 
     KernelNames shown = tracePictures(octree.tree());
-    for (const char* kernel : {"trace/beam_ranks", "trace/primary_ranks", "trace/ranks"}) // for overlays
+    for (const char* kernel : {"trace/node_ranks", "trace/primary_ranks", "trace/ranks"}) // for overlays
     {
         EXPECT_EQ(shown.contains(kernel), compressed) << kernel;
     }
@@ -278,7 +278,7 @@ TEST(EveryKernel, RunsOnASmallScene)
         bool pictures;
         std::uint64_t table_slots; // at first, of the table of equal nodes; too few, or an estimate
     };
-    // The beam grid has finer cells from depth 7 on, and keys have two words from depth 13 on.
+    // Rays begin below the root from depth 7 on, and keys have two words from depth 13 on.
     const Case cases[] = {{Coverage::Conservative, 3, 2.0F, false, 2},
                           {Coverage::Thin, 7, 0.25F, true, 0},
                           {Coverage::Thin, 13, 1.0F, false, 0}};

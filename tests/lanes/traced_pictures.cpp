@@ -23,9 +23,9 @@ KernelNames tracePictures(const DeviceTree& tree)
 {
     KernelNames names;
     const ViewCamera view = ViewCamera::lookAt({25.0, 22.0, 31.0}, {8.0, 8.0, 8.0}, 0.7);
-    BeamGrid beam(device().device(), tree.isDag());
+    NodePaths paths(device().device(), tree.isDag());
     TraceBuffers buffers(device().device(), 17, 9);
-    addNames(names, device().run([&](vk::FrameGraph& graph) { buildBeam(graph, tree, beam); }));
+    addNames(names, device().run([&](vk::FrameGraph& graph) { buildNodePaths(graph, tree, paths); }));
     for (const TraceStack stack : {TraceStack::Registers, TraceStack::Private, TraceStack::Shared})
     {
         if (tree.isDag() && stack != TraceStack::Registers)
@@ -41,13 +41,13 @@ KernelNames tracePictures(const DeviceTree& tree)
             options.beam = stack != TraceStack::Private;
             const TraceCamera camera = traceCamera(view, tree.grid, buffers.height);
             addNames(names,
-                     device().run([&](vk::FrameGraph& graph) { trace(graph, tree, beam, camera, options, buffers); }));
+                     device().run([&](vk::FrameGraph& graph) { trace(graph, tree, paths, camera, options, buffers); }));
         }
     }
     TraceOptions coarse;
     coarse.detail_level = 2;
     const TraceCamera camera = traceCamera(view, tree.grid, buffers.height);
-    addNames(names, device().run([&](vk::FrameGraph& graph) { trace(graph, tree, beam, camera, coarse, buffers); }));
+    addNames(names, device().run([&](vk::FrameGraph& graph) { trace(graph, tree, paths, camera, coarse, buffers); }));
     vk::BufferOf<gpu::PixelReport> report(device().device(), "report", 1);
     addNames(names, device().run(
                         [&](vk::FrameGraph& graph) {
@@ -133,8 +133,8 @@ KernelNames traceForHosts(const DeviceTree& tree)
     KernelNames names;
     ViewCamera view = ViewCamera::lookAt({25.0, 22.0, 31.0}, {8.0, 8.0, 8.0}, 0.7);
     view.half_height = 12.0;
-    const BeamGrid beam(device().device(), tree.isDag()); // not used
-    ClipDepth clip;                                       // 1 / (1 + distance)
+    const NodePaths paths(device().device(), tree.isDag()); // not used
+    ClipDepth clip;                                         // 1 / (1 + distance)
     clip.z.w = 1.0;
     clip.w = glm::dvec4(view.forward, 1.0 - glm::dot(view.forward, view.position));
     clip.miss = 0.0F;
@@ -153,7 +153,7 @@ KernelNames traceForHosts(const DeviceTree& tree)
             addNames(names, device().run(
                                 [&](vk::FrameGraph& graph)
                                 {
-                                    trace(graph, tree, beam, camera, options, buffers);
+                                    trace(graph, tree, paths, camera, options, buffers);
                                     traceDepth(graph, tree.grid, camera, clip, buffers, depth);
                                 }));
         }

@@ -35,15 +35,15 @@ std::uint32_t numberFrom(const char* variable, std::uint32_t otherwise)
 
 std::vector<gpu::uint> pictureOf(const DeviceTree& tree, const ViewCamera& view, TraceBuffers& buffers)
 {
-    BeamGrid beam(device().device());
+    NodePaths paths(device().device());
     TraceOptions options;
     options.occlusion_rays = 2;
     const TraceCamera camera = traceCamera(view, tree.grid, buffers.height);
     device().run(
         [&](vk::FrameGraph& graph)
         {
-            buildBeam(graph, tree, beam);
-            trace(graph, tree, beam, camera, options, buffers);
+            buildNodePaths(graph, tree, paths);
+            trace(graph, tree, paths, camera, options, buffers);
         });
     return device().download(buffers.image);
 }

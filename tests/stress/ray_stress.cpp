@@ -218,15 +218,15 @@ struct Picture
 Picture takePicture(vk::HeadlessDevice& device, const DeviceTree& octree, const TraceCamera& camera,
                     const TraceOptions& options)
 {
-    BeamGrid beam(device.device());
+    NodePaths paths(device.device());
     TraceBuffers buffers(device.device(), 333, 217);
     device.run(
         [&](vk::FrameGraph& graph)
         {
             graph.fill(buffers.hits, gpu::kHitMiss);
             graph.fill(buffers.light, 0);
-            buildBeam(graph, octree, beam);
-            tracePrimary(graph, octree, beam, camera, options, buffers);
+            buildNodePaths(graph, octree, paths);
+            tracePrimary(graph, octree, paths, camera, options, buffers);
         });
     tally().wrong += device.download(buffers.status).at(0).capped_rays;
     Picture picture{device.download(buffers.hits), 0};

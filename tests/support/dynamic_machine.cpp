@@ -70,7 +70,7 @@ std::ostream& operator<<(std::ostream& out, const Command& command)
 }
 
 DynamicMachine::DynamicMachine(vk::HeadlessDevice& device, const DynamicSetting& setting, DynamicScenery& scenery)
-    : m_device(device), m_setting(setting), m_scenery(scenery), m_beam(device.device(), setting.compressed),
+    : m_device(device), m_setting(setting), m_scenery(scenery), m_paths(device.device(), setting.compressed),
       m_camera(setting.camera()), m_line(setting.entries_max)
 {
     m_setting.shot.coarse = setting.shot.coarse && !isRuled(); // the rule does not define averages of mixed nodes
@@ -222,7 +222,7 @@ vk::Submission DynamicMachine::submitFrame(ShotTaker& taker, bool loses)
             {
                 record(graph, command);
             }
-            taker.record(graph, m_octree->tree(), m_beam, m_camera, m_setting.shot);
+            taker.record(graph, m_octree->tree(), m_paths, m_camera, m_setting.shot);
             graph.releaseToHost();
             if (loses)
             {
@@ -406,7 +406,7 @@ DynamicMachine::Pixels DynamicMachine::picturesOf(const DeviceTree& tree)
     m_device.run(
         [&](vk::FrameGraph& graph)
         {
-            taker.record(graph, tree, m_beam, m_camera, shot);
+            taker.record(graph, tree, m_paths, m_camera, shot);
             graph.releaseToHost();
         });
     return taker.pictures();

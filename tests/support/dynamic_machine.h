@@ -105,7 +105,7 @@ private:
     std::deque<Flight> m_flights;
     std::vector<Command> m_commands; // of the next frame
     std::uint32_t m_update_count = 0;
-    BeamGrid m_beam;
+    NodePaths m_paths;
     TraceCamera m_camera;
     std::vector<ShotTaker> m_takers;                  // one for each frame in flight
     std::map<std::uint64_t, Pixels> m_pictures;       // by entry, as first seen

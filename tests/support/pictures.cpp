@@ -4,7 +4,7 @@
 namespace zvo::test
 {
 
-Picture takePicture(vk::HeadlessDevice& device, const DeviceTree& tree, BeamGrid& beam, const TraceCamera& camera,
+Picture takePicture(vk::HeadlessDevice& device, const DeviceTree& tree, NodePaths& paths, const TraceCamera& camera,
                     TraceBuffers& buffers, const TraceOptions& options)
 {
     device.run(
@@ -12,8 +12,8 @@ Picture takePicture(vk::HeadlessDevice& device, const DeviceTree& tree, BeamGrid
         {
             graph.fill(buffers.hits, gpu::kHitMiss);
             graph.fill(buffers.light, 0);
-            buildBeam(graph, tree, beam);
-            trace(graph, tree, beam, camera, options, buffers);
+            buildNodePaths(graph, tree, paths);
+            trace(graph, tree, paths, camera, options, buffers);
         });
     const gpu::TraceStatus status = device.download(buffers.status).at(0);
     return {device.download(buffers.image), device.download(buffers.hits), device.download(buffers.light),
@@ -23,9 +23,9 @@ Picture takePicture(vk::HeadlessDevice& device, const DeviceTree& tree, BeamGrid
 Picture takePicture(vk::HeadlessDevice& device, const DeviceTree& tree, const TraceCamera& camera, std::uint32_t width,
                     std::uint32_t height, const TraceOptions& options)
 {
-    BeamGrid beam(device.device(), tree.isDag());
+    NodePaths paths(device.device(), tree.isDag());
     TraceBuffers buffers(device.device(), width, height);
-    return takePicture(device, tree, beam, camera, buffers, options);
+    return takePicture(device, tree, paths, camera, buffers, options);
 }
 
 std::uint32_t hitCount(const Picture& picture)

@@ -24,8 +24,8 @@ struct Picture
 Picture takePicture(vk::HeadlessDevice& device, const DeviceTree& tree, const TraceCamera& camera, std::uint32_t width,
                     std::uint32_t height, const TraceOptions& options);
 
-/// Takes the picture with a beam grid that was used before.
-Picture takePicture(vk::HeadlessDevice& device, const DeviceTree& tree, BeamGrid& beam, const TraceCamera& camera,
+/// Takes the picture with node paths that were used before.
+Picture takePicture(vk::HeadlessDevice& device, const DeviceTree& tree, NodePaths& paths, const TraceCamera& camera,
                     TraceBuffers& buffers, const TraceOptions& options);
 
 std::uint32_t hitCount(const Picture& picture);

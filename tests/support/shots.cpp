@@ -38,7 +38,7 @@ ShotTaker::ShotTaker(vk::Device& device)
 {
 }
 
-void ShotTaker::record(vk::FrameGraph& graph, const DeviceTree& tree, BeamGrid& beam, const TraceCamera& camera,
+void ShotTaker::record(vk::FrameGraph& graph, const DeviceTree& tree, NodePaths& paths, const TraceCamera& camera,
                        const Shot& shot)
 {
     TraceOptions options;
@@ -48,10 +48,10 @@ void ShotTaker::record(vk::FrameGraph& graph, const DeviceTree& tree, BeamGrid& 
     options.detail_level = shot.coarse ? kCoarseLevel : UINT32_MAX;
     if (shot.beam)
     {
-        buildBeam(graph, tree, beam);
+        buildNodePaths(graph, tree, paths);
     }
-    tracePrimary(graph, tree, beam, camera, options, m_buffers);
-    traceLight(graph, tree, beam, camera, options, m_buffers);
+    tracePrimary(graph, tree, paths, camera, options, m_buffers);
+    traceLight(graph, tree, paths, camera, options, m_buffers);
     for (std::size_t i = 0; i < kViews.size(); ++i)
     {
         options.view = kViews[i];

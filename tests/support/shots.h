@@ -37,7 +37,7 @@ public:
     explicit ShotTaker(vk::Device& device);
 
     /// Records the passes for pictures of tree, which overwrite the last ones. beam is made anew.
-    void record(vk::FrameGraph& graph, const DeviceTree& tree, BeamGrid& beam, const TraceCamera& camera,
+    void record(vk::FrameGraph& graph, const DeviceTree& tree, NodePaths& paths, const TraceCamera& camera,
                 const Shot& shot);
 
     /// The pixels of all views. The device must be done with what was recorded, including FrameGraph::releaseToHost().

@@ -62,9 +62,9 @@ std::uint64_t HitAttributes::of(const gpu::Hit& hit) const
 }
 
 TreeComparison::Subject::Subject(vk::HeadlessDevice& device, const DeviceTree& view)
-    : tree(view), attributes(device, view), beam(device.device(), view.isDag())
+    : tree(view), attributes(device, view), paths(device.device(), view.isDag())
 {
-    device.run([&](vk::FrameGraph& graph) { buildBeam(graph, tree, beam); });
+    device.run([&](vk::FrameGraph& graph) { buildNodePaths(graph, tree, paths); });
 }
 
 TreeComparison::TreeComparison(vk::HeadlessDevice& device, const DeviceTree& expected, const DeviceTree& tree)
@@ -127,7 +127,7 @@ Picture TreeComparison::take(const Subject& subject, const TraceCamera& camera, 
         {
             graph.fill(m_buffers.hits, gpu::kHitMiss);
             graph.fill(m_buffers.light, 0);
-            trace(graph, subject.tree, subject.beam, camera, options, m_buffers);
+            trace(graph, subject.tree, subject.paths, camera, options, m_buffers);
         });
     const gpu::TraceStatus status = m_device.download(m_buffers.status).front();
     return {m_device.download(m_buffers.image), m_device.download(m_buffers.hits), m_device.download(m_buffers.light),

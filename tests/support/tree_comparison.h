@@ -46,7 +46,7 @@ private:
 
         const DeviceTree& tree;
         HitAttributes attributes;
-        BeamGrid beam;
+        NodePaths paths;
     };
 
     [[nodiscard]] Picture take(const Subject& subject, const TraceCamera& camera, const TraceOptions& options);

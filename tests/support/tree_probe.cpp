@@ -56,7 +56,7 @@ std::string walkFault(const TreeData& tree)
 }
 
 TreeProbe::TreeProbe(vk::HeadlessDevice& device)
-    : m_device(device), m_octree_beam(device.device()), m_dag_beam(device.device(), true),
+    : m_device(device), m_octree_paths(device.device()), m_dag_paths(device.device(), true),
       m_picture(device.device(), kPictureEdge, kPictureEdge), m_rays(device.device(), "rays", kRayCount),
       m_hits(device.device(), "hits", kRayCount), m_rounds(device.device(), "rounds", gpu::kTraceRoundsMax),
       m_status(device.device(), "status", 1)
@@ -74,15 +74,15 @@ std::string TreeProbe::traceFault(const TreeData& tree, std::mt19937& random)
                         tree.grid.origin + tree.grid.voxel_size * static_cast<float>(tree.grid.resolution())};
     const TraceCamera camera = traceCamera(ViewCamera::framing(all, 1.0), tree.grid, kPictureEdge);
     m_device.upload<gpu::Ray>(m_rays, someRays(random));
-    BeamGrid& beam = options.beam && view.isDag() ? m_dag_beam : m_octree_beam;
+    NodePaths& paths = options.beam && view.isDag() ? m_dag_paths : m_octree_paths;
     m_device.run(
         [&](vk::FrameGraph& graph)
         {
             if (options.beam)
             {
-                buildBeam(graph, view, beam);
+                buildNodePaths(graph, view, paths);
             }
-            trace(graph, view, beam, camera, options, m_picture);
+            trace(graph, view, paths, camera, options, m_picture);
             graph.fill(m_status, 0);
             traceRays(graph, view, m_rays, m_hits, m_rounds, m_status, TraceOptions());
         });

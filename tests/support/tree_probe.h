@@ -28,8 +28,8 @@ public:
 
 private:
     vk::HeadlessDevice& m_device;
-    BeamGrid m_octree_beam;
-    BeamGrid m_dag_beam;
+    NodePaths m_octree_paths;
+    NodePaths m_dag_paths;
     TraceBuffers m_picture;
     vk::BufferOf<gpu::Ray> m_rays;
     vk::BufferOf<gpu::Hit> m_hits; // [m_rays.count()]

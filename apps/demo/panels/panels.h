@@ -43,7 +43,7 @@ struct MemoryUse
     std::uint64_t geometry = 0;   // of the static part
     std::uint64_t attributes = 0; // of the static part
     std::uint64_t pictures = 0;
-    std::uint64_t used = 0; // all use: the above, dynamic objects, overlays, the beam grid and the rest
+    std::uint64_t used = 0; // all use: the above, dynamic objects, overlays, node paths and the rest
     std::uint64_t held = 0; // allocated from the driver
 };
 

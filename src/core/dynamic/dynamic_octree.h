@@ -63,8 +63,8 @@ struct UpdateReport
 /// tracing of tree() into the same command buffer; and frameDone() once the device is done with the frame. Frames share
 /// buffers: a command buffer must be submitted after those of earlier frames, and begin behind a full memory barrier.
 /// Nothing waits for the device. Each of these calls gives the tree another version, and what was made from the last
-/// one (a BeamGrid, addresses of its buffers) is out of date. The device must outlive a DynamicOctree, and be done with
-/// all its frames when it is destroyed.
+/// one (a NodePaths, addresses of its buffers) is out of date. The device must outlive a DynamicOctree, and be done
+/// with all its frames when it is destroyed.
 ///
 /// An update that has too little memory says so in its report. The frame then shows the last complete root, and a later
 /// update gets more memory. Where recording or submitting a frame fails for any reason, frameLost() takes the frame

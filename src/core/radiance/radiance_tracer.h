@@ -54,7 +54,7 @@ public:
     [[nodiscard]] const RadianceCache& cache() const { return m_cache; }
     [[nodiscard]] const TraceBuffers& buffers() const { return m_tracer.buffers(); }
 
-    /// Device memory of all buffers but the beam grid's.
+    /// Device memory of all buffers but the node paths'.
     [[nodiscard]] std::uint64_t bytes() const { return m_tracer.buffers().bytes() + m_cache.bytes() + m_view->bytes(); }
 
 private:

@@ -4,6 +4,7 @@
 #include "core/base/divide_up.h"
 #include "core/trace/trace_beam.h"
 #include "core/trace/trace_passes.h"
+#include "core/trace/trace_paths.h"
 #include "core/trace/trace_ranks.h"
 #include "vk/device.h"
 
@@ -50,14 +51,14 @@ std::uint64_t TraceBuffers::bytes() const
            light_.bytes() + image_.bytes();
 }
 
-void tracePrimary(vk::FrameGraph& graph, const DeviceTree& tree, const BeamGrid& beam, const TraceCamera& camera,
+void tracePrimary(vk::FrameGraph& graph, const DeviceTree& tree, const NodePaths& paths, const TraceCamera& camera,
                   const TraceOptions& options, TraceBuffers& buffers)
 {
-    traceBeam(graph, tree, beam, camera, options, buffers);
+    traceBeam(graph, tree, camera, options, buffers);
     const bool count_iterations = options.view == View::Iterations;
     const bool use_paths = usesPaths(tree, options);
     const bool wants_ranks = tree.isDag() && showsAttributes(options) && usesAttributes(tree, options);
-    const bool has_ranks = options.beam && wants_ranks && !options.hasDetail() && hasRankTable(tree, beam);
+    const bool has_ranks = options.beam && wants_ranks && !options.hasDetail() && hasRankTable(tree, paths);
     const auto primary = [&]<typename Kernel>(Kernel kernel)
     {
         kernel = beginningOnPaths(traversing(kernel, graph.device(), tree, options), tree, options);
@@ -71,7 +72,7 @@ void tracePrimary(vk::FrameGraph& graph, const DeviceTree& tree, const BeamGrid&
     const auto common = [&]<typename Params>(vk::AnyPass& pass, Params params)
     {
         params.nodes = pass.read(tree.nodes);
-        params.paths = use_paths || has_ranks ? pass.read(beam.paths) : gpu::ConstPtr<uint64_t>{};
+        params.paths = use_paths || has_ranks ? pass.read(paths.cells) : gpu::ConstPtr<uint64_t>{};
         params.live = pass.read(buffers.live);
         params.status = pass.readWrite(buffers.status);
         params.hits = pass.readWrite(buffers.hits);
@@ -111,13 +112,13 @@ void tracePrimary(vk::FrameGraph& graph, const DeviceTree& tree, const BeamGrid&
     }
 }
 
-void trace(vk::FrameGraph& graph, const DeviceTree& tree, const BeamGrid& beam, const TraceCamera& camera,
+void trace(vk::FrameGraph& graph, const DeviceTree& tree, const NodePaths& paths, const TraceCamera& camera,
            const TraceOptions& options, TraceBuffers& buffers)
 {
-    tracePrimary(graph, tree, beam, camera, options, buffers);
+    tracePrimary(graph, tree, paths, camera, options, buffers);
     if (needsLight(options))
     {
-        traceLight(graph, tree, beam, camera, options, buffers);
+        traceLight(graph, tree, paths, camera, options, buffers);
     }
     shade(graph, tree, camera, options, buffers);
 }

@@ -49,7 +49,7 @@ struct TraceOptions
 {
     View view = TraceInfo().view;
     std::optional<TraceStack> stack = std::nullopt; // not given: Tunable::RayStack
-    bool beam = true; // skip what the beam grid shows to be empty; the picture is the same
+    bool beam = true; // begin at what a tile's rays may hit, and below the root; the picture is the same
     bool shadows = TraceInfo().shadows;
     glm::dvec3 to_sun = {TraceInfo().to_sun[0], TraceInfo().to_sun[1], TraceInfo().to_sun[2]};
     float sun = TraceInfo().sun;
@@ -63,16 +63,13 @@ struct TraceOptions
     [[nodiscard]] bool hasDetail() const { return detail_pixels > 0.0F || detail_level != UINT32_MAX; }
 };
 
-/// A coarse octree over a dilated octree (shaders/trace/beam.h). It tells the beam pass which parts rays can skip.
-struct BeamGrid
+/// The nodes around each of 64^3 cells, where rays may begin (shaders/trace/node_paths.h).
+struct NodePaths
 {
-    /// for_dag: makes `paths` large enough for a table that makes the ranks of hits in a DAG cheaper. The hits are the
-    /// same.
-    explicit BeamGrid(vk::Device& device, bool for_dag = false);
+    /// for_dag: makes room for a table that makes the ranks of hits in a DAG cheaper. The hits are the same.
+    explicit NodePaths(vk::Device& device, bool for_dag = false);
 
-    vk::BufferOf<uint64_t> masks;  // [kBeamMasks]
-    vk::BufferOf<gpu::Node> nodes; // [kBeamNodes]
-    vk::BufferOf<uint64_t> paths;  // [kPathCells^3], or [kRankTableOverlays + 1]
+    vk::BufferOf<uint64_t> cells; // [kPathCells^3], or [kRankTableOverlays + 1]
 };
 
 /// What the passes for a picture of width x height pixels write. Pixels are stored row by row from the top left.
@@ -97,20 +94,19 @@ struct TraceBuffers
     vk::BufferOf<gpu::uint> image; // [width * height * texelWords(texels)]
 };
 
-/// Records the passes that make the beam grid of tree. Needed once for each DeviceTree::version. Cost: constant, plus
-/// the cells that the tree touches in the beam grid.
-void buildBeam(vk::FrameGraph& graph, const DeviceTree& tree, BeamGrid& beam);
+/// Records the passes that fill paths for tree. Needed once for each DeviceTree::version. Cost: constant.
+void buildNodePaths(vk::FrameGraph& graph, const DeviceTree& tree, NodePaths& paths);
 
 /// Records the passes that find what the ray of each pixel hits first: they fill buffers.starts, live, args, status and
-/// hits, and for View::Iterations also light. beam: made by buildBeam() for this version of tree; anything if
+/// hits, and for View::Iterations also light. paths: made by buildNodePaths() for this version of tree; anything if
 /// TraceOptions::beam is false. In a DAG, Hit::index is undefined where options show no attributes or the tree has
 /// none. Cost: pixels of the tiles that are near something.
-void tracePrimary(vk::FrameGraph& graph, const DeviceTree& tree, const BeamGrid& beam, const TraceCamera& camera,
+void tracePrimary(vk::FrameGraph& graph, const DeviceTree& tree, const NodePaths& paths, const TraceCamera& camera,
                   const TraceOptions& options, TraceBuffers& buffers);
 
 /// Records the passes that find how much light of sun and sky, as options ask for it, arrives at hits: they fill
 /// buffers.light.
-void traceLight(vk::FrameGraph& graph, const DeviceTree& tree, const BeamGrid& beam, const TraceCamera& camera,
+void traceLight(vk::FrameGraph& graph, const DeviceTree& tree, const NodePaths& paths, const TraceCamera& camera,
                 const TraceOptions& options, TraceBuffers& buffers);
 
 /// Records the passes that make buffers.image of hits and, where options ask for it, light.
@@ -124,7 +120,7 @@ void inspectPixel(vk::FrameGraph& graph, const DeviceTree& tree, const TraceCame
                   const TraceBuffers& buffers, glm::uvec2 pixel, vk::BufferOf<gpu::PixelReport>& report);
 
 /// Records all passes from a camera to a picture: tracePrimary(), traceLight() where needed, shade().
-void trace(vk::FrameGraph& graph, const DeviceTree& tree, const BeamGrid& beam, const TraceCamera& camera,
+void trace(vk::FrameGraph& graph, const DeviceTree& tree, const NodePaths& paths, const TraceCamera& camera,
            const TraceOptions& options, TraceBuffers& buffers);
 
 /// How many elements of a list of rays count, where only the device knows: a word, and the workgroups for it.

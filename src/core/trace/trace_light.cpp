@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Light at hits, and colours from hits and light.
-#include "core/trace/trace_beam.h"
 #include "core/trace/trace_passes.h"
+#include "core/trace/trace_paths.h"
 
 #include <algorithm>
 #include <cmath>
@@ -56,7 +56,7 @@ gpu::vec2 depthRange(const Grid& grid, const TraceCamera& camera)
 
 // The parameters that all passes share which trace rays from hits.
 template <typename Params>
-Params lightParams(vk::AnyPass& pass, const DeviceTree& tree, const BeamGrid& beam, const TraceCamera& camera,
+Params lightParams(vk::AnyPass& pass, const DeviceTree& tree, const NodePaths& paths, const TraceCamera& camera,
                    const TraceOptions& options, TraceBuffers& buffers)
 {
     Params params{};
@@ -64,7 +64,7 @@ Params lightParams(vk::AnyPass& pass, const DeviceTree& tree, const BeamGrid& be
     params.live = pass.read(buffers.live);
     params.hits = pass.read(buffers.hits);
     readAttributes(pass, tree, params);
-    params.paths = usesPaths(tree, options) ? pass.read(beam.paths) : gpu::ConstPtr<uint64_t>{};
+    params.paths = usesPaths(tree, options) ? pass.read(paths.cells) : gpu::ConstPtr<uint64_t>{};
     params.status = pass.readWrite(buffers.status);
     params.forward = camera.rays.forward;
     params.half_pixel_x = camera.rays.half_pixel_x;
@@ -130,7 +130,7 @@ void shadeView(vk::FrameGraph& graph, const DeviceTree& tree, const TraceCamera&
 
 } // namespace
 
-void traceLight(vk::FrameGraph& graph, const DeviceTree& tree, const BeamGrid& beam, const TraceCamera& camera,
+void traceLight(vk::FrameGraph& graph, const DeviceTree& tree, const NodePaths& paths, const TraceCamera& camera,
                 const TraceOptions& options, TraceBuffers& buffers)
 {
     const AttributeFormat format = formatToRead(tree, options);
@@ -140,7 +140,7 @@ void traceLight(vk::FrameGraph& graph, const DeviceTree& tree, const BeamGrid& b
         const gpu::vec3 to_sun = sunDirection(options);
         const auto declare = [&](vk::AnyPass& pass)
         {
-            auto params = lightParams<gpu::ShadowParams>(pass, tree, beam, camera, options, buffers);
+            auto params = lightParams<gpu::ShadowParams>(pass, tree, paths, camera, options, buffers);
             params.light = pass.readWrite(buffers.light);
             params.to_sun = to_sun;
             return params;
@@ -155,7 +155,7 @@ void traceLight(vk::FrameGraph& graph, const DeviceTree& tree, const BeamGrid& b
             .orthographic = camera.orthographic, .format = format, .shadows = options.shadows};
         vk::Pass pass =
             graph.addPass(beginningOnPaths(traversing(kernel, graph.device(), tree, options), tree, options));
-        auto params = lightParams<gpu::OcclusionParams>(pass, tree, beam, camera, options, buffers);
+        auto params = lightParams<gpu::OcclusionParams>(pass, tree, paths, camera, options, buffers);
         params.light = pass.readWrite(buffers.light);
         params.ray_count = std::min(options.occlusion_rays, kOcclusionRaysMax);
         params.radius =

@@ -2,7 +2,7 @@
 #include "core/trace/trace_ranks.h"
 
 #include "core/trace/trace_passes.h"
-#include "trace/beam.h"
+#include "trace/node_paths.h"
 
 namespace zvo
 {
@@ -45,22 +45,22 @@ void addRanks(vk::FrameGraph& graph, const DeviceTree& tree, const TraceOptions&
 
 } // namespace
 
-bool hasRankTable(const DeviceTree& tree, const BeamGrid& beam)
+bool hasRankTable(const DeviceTree& tree, const NodePaths& paths)
 {
     return tree.grid.nodeLevels() > gpu::kPathLevels && tree.lists.voxels_before_leaf.count() != 0 &&
-           beam.paths.count() > gpu::kRankTableFirst;
+           paths.cells.count() > gpu::kRankTableFirst;
 }
 
-void buildRankTable(vk::FrameGraph& graph, const DeviceTree& tree, BeamGrid& beam)
+void buildRankTable(vk::FrameGraph& graph, const DeviceTree& tree, NodePaths& paths)
 {
-    if (!hasRankTable(tree, beam))
+    if (!hasRankTable(tree, paths))
     {
         return;
     }
     const bool leaves = tree.grid.nodeLevels() == gpu::kPathLevels + 1;
-    vk::Pass pass = graph.addPass(gpu::trace::BeamRanks{
+    vk::Pass pass = graph.addPass(gpu::trace::NodeRanks{
         .leaves = leaves, .entries_per_word = tree.entriesPerWord(), .overlays = tree.hasOverlays()});
-    const gpu::BeamRanksParams params = {rankSource(pass, tree), overlayRanks(pass, tree), pass.readWrite(beam.paths)};
+    const gpu::NodeRanksParams params = {rankSource(pass, tree), overlayRanks(pass, tree), pass.readWrite(paths.cells)};
     pass.dispatch(gpu::kRankTableFirst, params);
 }
 

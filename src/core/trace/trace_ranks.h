@@ -9,11 +9,11 @@
 namespace zvo
 {
 
-/// Whether beam has a table (shaders/trace/beam.h) from which trace/primary_ranks can sum up ranks in tree.
-bool hasRankTable(const DeviceTree& tree, const BeamGrid& beam);
+/// Whether paths has a table (shaders/trace/node_paths.h) from which trace/primary_ranks can sum up ranks in tree.
+bool hasRankTable(const DeviceTree& tree, const NodePaths& paths);
 
-/// Records the pass that fills this table, if beam has one. Cost: constant.
-void buildRankTable(vk::FrameGraph& graph, const DeviceTree& tree, BeamGrid& beam);
+/// Records the pass that fills this table, if paths has one. Cost: constant.
+void buildRankTable(vk::FrameGraph& graph, const DeviceTree& tree, NodePaths& paths);
 
 /// Record the pass that turns Hit::index, as a traversal of tree leaves it, into the index of the voxel's or node's
 /// attributes. rankTiles() does it for the hits of all live tiles, rankHits() for the first count hits of a list. Cost:

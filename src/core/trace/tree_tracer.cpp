@@ -14,38 +14,38 @@ void TreeTracer::resize(std::uint32_t width, std::uint32_t height)
 
 void TreeTracer::reserve(const DeviceTree& tree)
 {
-    if (m_beam == nullptr || (tree.isDag() && !m_beam_is_for_dags))
+    if (m_paths == nullptr || (tree.isDag() && !m_paths_are_for_dags))
     {
-        vk::replace(m_deletion_queue, m_beam, std::make_unique<BeamGrid>(m_device, tree.isDag()));
-        m_beam_is_for_dags = tree.isDag();
+        vk::replace(m_deletion_queue, m_paths, std::make_unique<NodePaths>(m_device, tree.isDag()));
+        m_paths_are_for_dags = tree.isDag();
         forget();
     }
 }
 
 void TreeTracer::prepare(vk::FrameGraph& graph, const DeviceTree& tree)
 {
-    if (m_beam_version == tree.version)
+    if (m_paths_version == tree.version)
     {
         return;
     }
     reserve(tree);
     forget(); // should the next line throw
-    buildBeam(graph, tree, *m_beam);
-    m_beam_version = tree.version;
+    buildNodePaths(graph, tree, *m_paths);
+    m_paths_version = tree.version;
 }
 
 void TreeTracer::tracePrimary(vk::FrameGraph& graph, const DeviceTree& tree, const TraceCamera& camera,
                               const TraceOptions& options)
 {
     prepare(graph, tree);
-    zvo::tracePrimary(graph, tree, *m_beam, camera, options, *m_buffers);
+    zvo::tracePrimary(graph, tree, *m_paths, camera, options, *m_buffers);
 }
 
 void TreeTracer::trace(vk::FrameGraph& graph, const DeviceTree& tree, const TraceCamera& camera,
                        const TraceOptions& options)
 {
     prepare(graph, tree);
-    zvo::trace(graph, tree, *m_beam, camera, options, *m_buffers);
+    zvo::trace(graph, tree, *m_paths, camera, options, *m_buffers);
 }
 
 } // namespace zvo

@@ -10,7 +10,7 @@
 namespace zvo
 {
 
-/// Traces pictures of one tree or several. Owns the buffers of a picture and a beam grid, which is made anew when the
+/// Traces pictures of one tree or several. Owns the buffers of a picture and node paths, which are made anew when the
 /// tree's version (DeviceTree::version) is not the one for which it was made.
 class TreeTracer
 {
@@ -27,12 +27,12 @@ public:
     /// budget does not suffice; then the size stays as it was.
     void resize(std::uint32_t width, std::uint32_t height);
 
-    /// Makes the buffers of the beam grid for tree, unless they exist. prepare() begins with this. Throws
+    /// Makes the buffer of the node paths for tree, unless it exists. prepare() begins with this. Throws
     /// Error{Memory}; then nothing changes.
     void reserve(const DeviceTree& tree);
 
-    /// Records the passes that make the beam grid of tree, if it is out of date (buildBeam()). Both functions below
-    /// begin with this one.
+    /// Records the passes that make the node paths of tree, if they are out of date (buildNodePaths()). Both functions
+    /// below begin with this one.
     void prepare(vk::FrameGraph& graph, const DeviceTree& tree);
 
     /// Record what zvo::tracePrimary() and zvo::trace() record.
@@ -40,8 +40,8 @@ public:
                       const TraceOptions& options);
     void trace(vk::FrameGraph& graph, const DeviceTree& tree, const TraceCamera& camera, const TraceOptions& options);
 
-    /// Has the beam grid made anew for the next picture: because the last frame was lost, or kernels may have changed.
-    void forget() { m_beam_version = 0; }
+    /// Has the node paths made anew for the next picture: because the last frame was lost, or kernels may have changed.
+    void forget() { m_paths_version = 0; }
 
     /// The buffers of the last picture.
     [[nodiscard]] const TraceBuffers& buffers() const { return *m_buffers; }
@@ -54,9 +54,9 @@ private:
     vk::DeletionQueue* m_deletion_queue;
     TexelFormat m_texels;
     std::unique_ptr<TraceBuffers> m_buffers;
-    std::unique_ptr<BeamGrid> m_beam;
-    bool m_beam_is_for_dags = false;
-    std::uint64_t m_beam_version = 0; // of the tree that m_beam was made of; 0: out of date
+    std::unique_ptr<NodePaths> m_paths;
+    bool m_paths_are_for_dags = false;
+    std::uint64_t m_paths_version = 0; // of the tree that m_paths was made of; 0: out of date
 };
 
 } // namespace zvo

@@ -10,7 +10,7 @@
 #include "support/scenes.h"
 #include "support/trace_octrees.h"
 #include "support/tree_comparison.h"
-#include "trace/beam.h"
+#include "trace/node_paths.h"
 
 #include <glm/ext/matrix_transform.hpp>
 #include <gtest/gtest.h>
@@ -308,9 +308,9 @@ TEST(DynamicSvdag, RaysBeginAtTheLowestNodesOfOverlaysAndOfTheDagBelow)
                   [&]
                   {
                       const std::vector<gpu::Node> nodes = device().download(pair.dag().tree().nodes);
-                      BeamGrid beam(device().device());
-                      device().run([&](vk::FrameGraph& graph) { buildBeam(graph, pair.dag().tree(), beam); });
-                      const std::vector<std::uint64_t> words = device().download(beam.paths);
+                      NodePaths table(device().device());
+                      device().run([&](vk::FrameGraph& graph) { buildNodePaths(graph, pair.dag().tree(), table); });
+                      const std::vector<std::uint64_t> words = device().download(table.cells);
                       const bool listed = (nodes[0].base_lo & gpu::kChildList) != 0;
                       const std::uint32_t before = listed ? 0 : nodes[0].base_lo - 1;
                       const auto paths = pathsOf(nodes, pair.dag().tree().entriesPerWord());

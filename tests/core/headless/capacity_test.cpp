@@ -174,14 +174,14 @@ LimitedRun runUnder(std::uint64_t limit, const Scene& scene, std::uint32_t depth
         const Grid grid = Grid::around(scene.bounds(), depth);
         const BuildResult result = buildOctree(limited, gpu_scene, grid, {Coverage::Thin, attributes, {}});
         run.sha = octreeSha256(limited, result.octree);
-        BeamGrid beam(limited.device());
+        NodePaths paths(limited.device());
         TraceBuffers buffers(limited.device(), 64, 48);
         const TraceCamera camera = traceCamera(ViewCamera::framing(scene, 64.0 / 48.0), grid, 48);
         limited.run(
             [&](vk::FrameGraph& graph)
             {
-                buildBeam(graph, result.octree, beam);
-                trace(graph, result.octree, beam, camera, {}, buffers);
+                buildNodePaths(graph, result.octree, paths);
+                trace(graph, result.octree, paths, camera, {}, buffers);
             });
         run.image = limited.download(buffers.image);
     }

@@ -88,7 +88,7 @@ std::string work(vk::HeadlessDevice& device, const Job& job)
         const Grid grid = Grid::around(job.scene.bounds(), 4);
         const DeviceTree octree =
             buildOctree(device, gpu_scene, grid, {Coverage::Thin, job.attributes, job.capacities}).octree;
-        BeamGrid beam(device.device());
+        NodePaths paths(device.device());
         TraceBuffers buffers(device.device(), kEdge, kEdge);
         TraceOptions options;
         options.shadows = job.attributes;
@@ -96,8 +96,8 @@ std::string work(vk::HeadlessDevice& device, const Job& job)
         device.run(
             [&](vk::FrameGraph& graph)
             {
-                buildBeam(graph, octree, beam);
-                trace(graph, octree, beam, camera, options, buffers);
+                buildNodePaths(graph, octree, paths);
+                trace(graph, octree, paths, camera, options, buffers);
             });
         result = octreeSha256(device, octree);
         for (const gpu::uint pixel : device.download(buffers.image))

@@ -145,7 +145,7 @@ TEST(PassCounts, OfAPicture)
     run(first, [&](vk::FrameGraph& graph) { tracer.trace(graph, tree, camera, {}); });
     PassCounts second;
     run(second, [&](vk::FrameGraph& graph) { tracer.trace(graph, tree, camera, {}); });
-    EXPECT_LT(second.dispatches, first.dispatches) << "the beam grid is made anew, although the tree is the same";
+    EXPECT_LT(second.dispatches, first.dispatches) << "node paths are made anew, although the tree is the same";
     expectAtMost(first, 11, 11);
     expectAtMost(second, 8, 8);
 }

@@ -52,7 +52,7 @@ Made make(const vk::SliceOptions& slices, const Scene& scene, std::uint32_t dept
         made.sha = octreeSha256(device, result.octree);
         constexpr std::uint32_t kWidth = 80;
         constexpr std::uint32_t kHeight = 56;
-        BeamGrid beam(device.device());
+        NodePaths paths(device.device());
         TraceBuffers buffers(device.device(), kWidth, kHeight);
         TraceOptions trace_options;
         trace_options.occlusion_rays = 2;
@@ -60,8 +60,8 @@ Made make(const vk::SliceOptions& slices, const Scene& scene, std::uint32_t dept
         count(made.pass_counts, device.run(
                                     [&](vk::FrameGraph& graph)
                                     {
-                                        buildBeam(graph, result.octree, beam);
-                                        trace(graph, result.octree, beam, camera, trace_options, buffers);
+                                        buildNodePaths(graph, result.octree, paths);
+                                        trace(graph, result.octree, paths, camera, trace_options, buffers);
                                     }));
         made.most_submissions = std::max(made.most_submissions, device.submissionCount());
         made.image = device.download(buffers.image);

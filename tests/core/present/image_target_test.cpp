@@ -119,7 +119,7 @@ void fillWithOthers(HostImage& image)
 class ImageTargets : public testing::Test
 {
 protected:
-    ImageTargets() : m_octree(test::octreeOf(device(), test::sphereShell(5, 14.0), 5)), m_beam(device().device()) {}
+    ImageTargets() : m_octree(test::octreeOf(device(), test::sphereShell(5, 14.0), 5)), m_paths(device().device()) {}
 
     // Traces a picture and its depth, then records further work into the same submission.
     void trace(TraceBuffers& buffers, vk::BufferOf<float>& depth, const std::function<void(vk::FrameGraph&)>& record)
@@ -134,15 +134,15 @@ protected:
         device().run(
             [&](vk::FrameGraph& graph)
             {
-                buildBeam(graph, m_octree, m_beam);
-                zvo::trace(graph, m_octree, m_beam, camera, {}, buffers);
+                buildNodePaths(graph, m_octree, m_paths);
+                zvo::trace(graph, m_octree, m_paths, camera, {}, buffers);
                 traceDepth(graph, m_octree.grid, camera, clip, buffers, depth);
                 record(graph);
             });
     }
 
     DeviceTree m_octree;
-    BeamGrid m_beam;
+    NodePaths m_paths;
 };
 
 TEST_F(ImageTargets, PicturesArriveInEveryFormatAtAnyPlace)

@@ -36,10 +36,10 @@ struct Shown
 
 Shown show(const DeviceTree& octree, const ViewCamera& view, TexelFormat format, const TraceOptions& options)
 {
-    BeamGrid beam(device().device());
+    NodePaths paths(device().device());
     TraceBuffers buffers(device().device(), kTexelsWide, kTexelsHigh, format);
     const TraceCamera camera = traceCamera(view, octree.grid, kTexelsHigh);
-    test::Picture picture = test::takePicture(device(), octree, beam, camera, buffers, options);
+    test::Picture picture = test::takePicture(device(), octree, paths, camera, buffers, options);
     return {std::move(picture.image), std::move(picture.hits)};
 }
 

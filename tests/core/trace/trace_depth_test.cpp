@@ -120,7 +120,7 @@ struct DepthPicture
 DepthPicture take(const DeviceTree& octree, const ViewCamera& view, const ClipDepth& clip, std::uint32_t width,
                   std::uint32_t height, const TraceOptions& options = {})
 {
-    BeamGrid beam(device().device());
+    NodePaths paths(device().device());
     TraceBuffers buffers(device().device(), width, height);
     vk::BufferOf<float> depth(device().device(), "depth", std::uint64_t{width} * height);
     const TraceCamera camera = traceCamera(view, octree.grid, height);
@@ -128,8 +128,8 @@ DepthPicture take(const DeviceTree& octree, const ViewCamera& view, const ClipDe
         [&](vk::FrameGraph& graph)
         {
             graph.fill(buffers.hits, gpu::kHitMiss);
-            buildBeam(graph, octree, beam);
-            tracePrimary(graph, octree, beam, camera, options, buffers);
+            buildNodePaths(graph, octree, paths);
+            tracePrimary(graph, octree, paths, camera, options, buffers);
             traceDepth(graph, octree.grid, camera, clip, buffers, depth);
         });
     return {device().download(buffers.hits), device().download(depth)};

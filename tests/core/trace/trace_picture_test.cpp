@@ -10,6 +10,7 @@
 #include "support/spirv_structs.h"
 #include "support/trace_octrees.h"
 #include "trace/beam.h"
+#include "trace/node_paths.h"
 
 #include <gtest/gtest.h>
 
@@ -460,9 +461,9 @@ TEST(TracePicture, ParametersLieWhereTheKernelsExpectThem)
                 ZVO_EXPECT_OFFSET(PrimaryParams, next_round);
                 ++checked;
             }
-            else if (name == "BeamPathsParams")
+            else if (name == "NodePathsParams")
             {
-                ZVO_EXPECT_OFFSET(BeamPathsParams, paths);
+                ZVO_EXPECT_OFFSET(NodePathsParams, paths);
                 ++checked;
             }
             else if (name == "BeamParams")

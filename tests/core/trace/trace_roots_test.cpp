@@ -7,7 +7,7 @@
 #include "support/relocate.h"
 #include "support/trace_octrees.h"
 #include "support/trace_rays.h"
-#include "trace/beam.h"
+#include "trace/node_paths.h"
 
 #include <gtest/gtest.h>
 
@@ -206,7 +206,7 @@ TEST(TraceRoots, LevelsOfDetailStopAtTheSameNodes)
     }
 }
 
-/// The entry of beam.paths for a cell.
+/// The entry of paths.cells for a cell.
 struct Path
 {
     std::array<std::uint32_t, gpu::kPathLevels> nodes;
@@ -241,14 +241,14 @@ std::vector<Path> pathsOf(const std::vector<gpu::Node>& nodes)
     return paths;
 }
 
-// The paths on the device, decoded as shaders/trace/beam.h describes them.
+// The paths on the device, decoded as shaders/trace/node_paths.h describes them.
 std::vector<Path> devicePathsOf(const DeviceTree& octree, const std::vector<gpu::Node>& nodes)
 {
-    BeamGrid beam(device().device());
-    device().run([&](vk::FrameGraph& graph) { buildBeam(graph, octree, beam); });
+    NodePaths table(device().device());
+    device().run([&](vk::FrameGraph& graph) { buildNodePaths(graph, octree, table); });
     const std::uint32_t before = nodes.at(0).base_lo - 1;
     std::vector<Path> paths;
-    for (const std::uint64_t word : device().download(beam.paths))
+    for (const std::uint64_t word : device().download(table.cells))
     {
         const auto node1 = static_cast<std::uint32_t>(word & 255);
         const auto node2 = static_cast<std::uint32_t>(word >> 8 & 65535);
@@ -353,16 +353,16 @@ TEST(TraceRoots, ARootThatWasEmptyInBetweenIsTheSame)
         const gpu::Node root = device().download(octree.nodes, 0, 1).at(0);
         // The bases of an empty root have no meaning.
         const gpu::Node empty = {.mask_lo = 0, .base_lo = 12345, .mask_hi = 0, .base_hi = ~0U};
-        BeamGrid beam(device().device());
+        NodePaths paths(device().device());
         TraceBuffers buffers(device().device(), 99, 70);
-        // The camera is so close that tiles are narrower than the beam grid's cells.
+        // The camera is so close that tiles are narrower than voxels.
         const glm::dvec3 voxel = glm::dvec3(oracle::mortonDecode(codes.front())) + 0.5;
         const glm::dvec3 eye = voxel + static_cast<double>(octree.grid.resolution()) * glm::dvec3(-0.4, -0.7, -2.5);
         const TraceCamera camera = traceCamera(ViewCamera::lookAt(eye, voxel, 0.008), octree.grid, 70);
         const auto take = [&](const gpu::Node& with, const TraceOptions& options)
         {
             device().run([&](vk::FrameGraph& graph) { graph.update(octree.nodes, 0, std::span(&with, 1)); });
-            return takePicture(device(), octree, beam, camera, buffers, options);
+            return takePicture(device(), octree, paths, camera, buffers, options);
         };
         for (const View view : kRootViews)
         {

@@ -10,7 +10,7 @@
 #include "support/scenes.h"
 #include "support/trace_octrees.h"
 #include "support/trace_rays.h"
-#include "trace/beam.h"
+#include "trace/node_paths.h"
 
 #include <gtest/gtest.h>
 
@@ -109,9 +109,9 @@ void expectSamePictures(const DeviceTree& octree, const DeviceTree& dag, const o
                         const TraceOptions& options, bool must_hit, bool table = true)
 {
     const Picture expected = takePicture(device(), octree, camera, width, height, options);
-    BeamGrid beam(device().device(), table);
+    NodePaths paths(device().device(), table);
     TraceBuffers buffers(device().device(), width, height);
-    const Picture picture = takePicture(device(), dag, beam, camera, buffers, options);
+    const Picture picture = takePicture(device(), dag, paths, camera, buffers, options);
     EXPECT_EQ(picture.image, expected.image);
     EXPECT_EQ(picture.light, expected.light);
     EXPECT_EQ(picture.live_tiles, expected.live_tiles);
@@ -332,10 +332,10 @@ TEST(TraceSvdag, TablesNameTheNodesAndTheVoxelsBeforeThem)
     {
         const Pair pair(test::randomCodes(depth, 20000, random), depth);
         const std::uint32_t levels = pair.octree.grid.nodeLevels();
-        BeamGrid beam(device().device(), true);
-        device().run([&](vk::FrameGraph& graph) { buildBeam(graph, pair.dag, beam); });
-        const std::vector<uint64_t> paths = device().download(beam.paths);
-        const std::vector<uint64_t> ranks = device().download(beam.paths, gpu::kRankTableFirst, gpu::kRankTableFirst);
+        NodePaths paths(device().device(), true);
+        device().run([&](vk::FrameGraph& graph) { buildNodePaths(graph, pair.dag, paths); });
+        const std::vector<uint64_t> cells = device().download(paths.cells);
+        const std::vector<uint64_t> ranks = device().download(paths.cells, gpu::kRankTableFirst, gpu::kRankTableFirst);
         ASSERT_EQ(ranks.size(), gpu::kRankTableFirst);
         const std::uint32_t shift = 6 * (levels - gpu::kPathLevels);
         std::uint32_t present_count = 0;
@@ -346,14 +346,14 @@ TEST(TraceSvdag, TablesNameTheNodesAndTheVoxelsBeforeThem)
             const std::uint64_t code = oracle::mortonEncode(cell);
             const auto first = std::lower_bound(pair.codes.begin(), pair.codes.end(), code << shift);
             const bool present = first != pair.codes.end() && *first >> shift == code;
-            ASSERT_EQ(paths[i] >> 32 != 0, present) << i;
+            ASSERT_EQ(cells[i] >> 32 != 0, present) << i;
             if (present)
             {
                 ++present_count;
                 ASSERT_EQ(ranks[i] >> 32, first - pair.codes.begin()) << i;
                 if (levels > gpu::kPathLevels + 1) // leaves are not looked up
                 {
-                    ASSERT_EQ(ranks[i] & UINT32_MAX, paths[i] >> 32) << i;
+                    ASSERT_EQ(ranks[i] & UINT32_MAX, cells[i] >> 32) << i;
                 }
             }
             else

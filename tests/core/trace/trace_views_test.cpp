@@ -238,14 +238,14 @@ TEST(TraceViews, WhatAnUpdateMadeIsOrange)
 gpu::PixelReport inspect(const DeviceTree& tree, const ViewCamera& view, const TraceOptions& options, glm::uvec2 pixel)
 {
     const TraceCamera camera = traceCamera(view, tree.grid, kViewHeight);
-    BeamGrid beam(device().device(), tree.isDag());
+    NodePaths paths(device().device(), tree.isDag());
     TraceBuffers buffers(device().device(), kViewWidth, kViewHeight);
     vk::BufferOf<gpu::PixelReport> report(device().device(), "report", 1, vk::MemoryKind::Readback);
     device().run(
         [&](vk::FrameGraph& graph)
         {
-            buildBeam(graph, tree, beam);
-            trace(graph, tree, beam, camera, options, buffers);
+            buildNodePaths(graph, tree, paths);
+            trace(graph, tree, paths, camera, options, buffers);
             inspectPixel(graph, tree, camera, options, buffers, pixel, report);
             graph.releaseToHost();
         });

@@ -1,18 +1,18 @@
 #version 460
 // SPDX-License-Identifier: MIT
-// Writes where rays may begin: for each cell of a grid over the root cube, the nodes that contain it (trace/beam.h).
+// Writes where rays may begin: for each cell of a grid over the root cube, the nodes that contain it (trace/node_paths.h).
 #extension GL_GOOGLE_include_directive : require
-#include "trace/beam.h"
+#include "trace/node_paths.h"
 #include "lib/dispatch.glsl"
 #include "lib/morton.glsl"
 #include "lib/node.glsl"
 
 layout(constant_id = 0) const uint kEntriesPerWord = 0u; // of lists; 0: there are none
 
-layout(local_size_x = kBeamGroup) in;
+layout(local_size_x = kPathsGroup) in;
 layout(push_constant, scalar) uniform Push
 {
-    BeamPathsParams params;
+    NodePathsParams params;
 };
 
 // The nodes of a path as rays take them; 0 for those that do not exist.

@@ -1,8 +1,8 @@
 #version 460
 // SPDX-License-Identifier: MIT
-// Writes where the ranks of hits in a DAG begin (trace/beam.h), behind the nodes that trace/beam_paths has written.
+// Writes where the ranks of hits in a DAG begin (trace/node_paths.h), behind the nodes that trace/node_paths has written.
 #extension GL_GOOGLE_include_directive : require
-#include "trace/beam.h"
+#include "trace/node_paths.h"
 #include "lib/dispatch.glsl"
 #include "lib/morton.glsl"
 #include "lib/node.glsl"
@@ -13,10 +13,10 @@ layout(constant_id = 2) const bool kOverlays = false;    // the upper nodes may 
 
 #include "lib/ranks.glsl"
 
-layout(local_size_x = kBeamGroup) in;
+layout(local_size_x = kPathsGroup) in;
 layout(push_constant, scalar) uniform Push
 {
-    BeamRanksParams params;
+    NodeRanksParams params;
 };
 
 void main()
