@@ -3,6 +3,7 @@
 // the path from the root. Overlays (update/update.h) may stand above a DAG: their nodes have ranks of their own. The
 // includer includes trace/trace.h and lib/node.glsl before and defines
 //   kEntriesPerWord    of lists
+//   RANKS_BINDING      optional: the binding of parameter voxels_before_leaf in the kernel's bound form (lib/bound.glsl)
 #include "lib/lists.glsl"
 
 // A node of the octree by its path.
@@ -43,11 +44,25 @@ bool descendInOverlay(RankSource source, BeforeChild_ConstPtr overlay_ranks, uin
     return direct;
 }
 
+#if defined(BOUND) && defined(RANKS_BINDING)
+TEXELS_1(RANKS_BINDING, voxels_before_leaf);
+
+uint loadBeforeLeaves(RankSource source, uint i)
+{
+    return texelFetch(texels1_voxels_before_leaf, int(i)).x;
+}
+#else
+uint loadBeforeLeaves(RankSource source, uint i)
+{
+    return source.voxels_before_leaf.data[i];
+}
+#endif
+
 // Voxels before a leaf in its parent; the entry with this index names the leaf.
 uint voxelsBeforeLeaf(RankSource source, uint index)
 {
     uint entry = index - source.first_short_entry;
-    return bitfieldExtract(source.voxels_before_leaf.data[entry >> 1], int(16u * (entry & 1u)), 16);
+    return bitfieldExtract(loadBeforeLeaves(source, entry >> 1), int(16u * (entry & 1u)), 16);
 }
 
 // From a parent of leaves to the leaf in a cell, whose node is not looked up.

@@ -39,6 +39,7 @@ layout(push_constant, scalar) uniform Push
 #ifdef PRIMARY_RANKS
 #include "lib/morton.glsl"
 #include "lib/node.glsl"
+#define RANKS_BINDING 2
 #include "lib/ranks.glsl"
 
 // The rank of the hit; for a miss, any number. Misses make all loads, too, except those of the descent;
@@ -49,9 +50,8 @@ uint rankOf(Traversal hit)
     BeforeChild_ConstPtr overlay_ranks = BeforeChild_ConstPtr(kOverlays ? g_paths.data[kRankTableOverlays] : 0ul);
     uvec3 cell = (hit.cell >> (2u * (kNodeLevels - kPathLevels))) & (kPathCells - 1u);
     uint index = kRankTableFirst + (cell.x | (cell.y << kPathCellBits) | (cell.z << (2u * kPathCellBits)));
-    RankedNode at = RankedNode(0u, uint_ConstPtr(uint64_t(g_paths)).data[2u * index + 1u], 0u);
-    if (kNodeLevels > kPathLevels + 2u || kOverlays)
-        at.node = uint_ConstPtr(uint64_t(g_paths)).data[2u * index];
+    uvec2 first = loadPath(index);
+    RankedNode at = RankedNode(first.x, first.y, 0u);
     bool in_overlay = kOverlays && (at.node & kChildList) != 0u;
     at.node &= kOverlays ? ~kChildList : ~0u;
     for (uint level = kPathLevels + 1u; level + 1u < kNodeLevels; ++level)
