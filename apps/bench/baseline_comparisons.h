@@ -47,7 +47,7 @@ public:
     /// The same for the construction of an octree without attributes.
     double geometryBuildMs();
 
-    /// What traces a picture by zvo's beam and primary passes. The grid of the beam is made once for an octree, before.
+    /// What traces a picture by zvo's beam and primary passes. Node paths are made once for an octree, before.
     std::function<double()> rays();
 
     void measure(BaselineRows& rows, const BaselineWork& work) const

@@ -63,13 +63,6 @@ uint levelOf(EditBox box, inout uint number)
     return level;
 }
 
-// Coordinates inside its 4x4x4 block of a bit of a mask.
-uvec3 cellAt(uint bit)
-{
-    return uvec3(bit & 1u, (bit >> 1) & 1u, (bit >> 2) & 1u) |
-           uvec3((bit >> 2) & 2u, (bit >> 3) & 2u, (bit >> 4) & 2u);
-}
-
 bool isUnderBrush(Brush brush, uvec3 voxel)
 {
     ivec3 away = abs(ivec3(voxel) - brush.center);

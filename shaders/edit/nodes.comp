@@ -6,6 +6,7 @@
 #include "edit/edit.h"
 #include "edit/cells.glsl"
 #include "lib/dispatch.glsl"
+#include "lib/morton.glsl"
 #include "lib/node.glsl"
 
 layout(constant_id = 0) const uint kEntriesPerWord = 0u; // of the lists of a DAG; 0: the static tree is an octree
@@ -95,7 +96,7 @@ void main()
         return;
     uint index = childIndex(copied, bit);
     bool is_leaf = level + 2u == params.box.level_count;
-    uvec3 position = 4u * cellOf(params.box, level, number) + cellAt(bit);
+    uvec3 position = 4u * cellOf(params.box, level, number) + cellNumbered(bit);
     uint child_index = 0u;
     bool changed = false;
     if (isInBox(params.box, level + 1u, position))

@@ -2,6 +2,7 @@
 // The voxels of changed leaves, one a thread.
 #include "edit/cells.glsl"
 #include "lib/dispatch.glsl"
+#include "lib/morton.glsl"
 #include "lib/node.glsl"
 
 layout(local_size_x = kEditGroup) in;
@@ -31,7 +32,7 @@ EditVoxel editVoxel()
         Node leaf = Node(cell.mask_lo, cell.first, cell.mask_hi, cell.first + bitCount(cell.mask_lo));
         voxel.exists = cell.changed != 0u && hasChild(leaf, bit);
         voxel.index = childIndex(leaf, bit);
-        voxel.cell = 4u * cellOf(params.box, params.box.level_count - 1u, number) + cellAt(bit);
+        voxel.cell = 4u * cellOf(params.box, params.box.level_count - 1u, number) + cellNumbered(bit);
         if (cell.base != kNoEditNode)
         {
             Node base = params.nodes.data[cell.base];

@@ -47,3 +47,10 @@ uint cellInBlock(uvec3 cell)
     uvec3 high = (cell >> 1) & 1u;
     return low.x | (low.y << 1) | (low.z << 2) | (high.x << 3) | (high.y << 4) | (high.z << 5);
 }
+
+// Coordinates inside its block of the cell with a number.
+uvec3 cellNumbered(uint number)
+{
+    uvec3 bits = uvec3(number, number >> 1, number >> 2);
+    return (bits & 1u) | ((bits >> 2) & 2u);
+}

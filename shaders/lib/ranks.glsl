@@ -3,7 +3,7 @@
 // the path from the root. Overlays (update/update.h) may stand above a DAG: their nodes have ranks of their own. The
 // includer includes trace/trace.h and lib/node.glsl before and defines
 //   kEntriesPerWord    of lists
-//   RANKS_BINDING      optional: the binding of parameter voxels_before_leaf in the kernel's bound form (lib/bound.glsl)
+//   RANKS_BINDING      optional: the binding of voxels_before_leaf in the kernel's bound form (lib/bound.glsl)
 #include "lib/lists.glsl"
 
 // A node of the octree by its path.

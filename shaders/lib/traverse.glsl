@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The one traversal of the octree: the first occupied cell along a ray. Rays are in unit space (shared/trace.h).
+// The one traversal of the octree by rays: the first occupied cell along a ray. Rays are in unit space
+// (shared/trace.h). Beams, which only find where rays may start, have trace/beam_start.glsl.
 //
 // Rule. A ray crosses plane p of axis i at t = (p - origin_i) * inverse_i: one rounded subtraction, one rounded
 // product. Crossings are events (t, i), ordered by t, then by axis; the start is the event (t_min, 3). A ray visits a
@@ -46,8 +47,8 @@ layout(constant_id = TRAVERSE_CONSTANT_ID + 3) const uint kIterationsMax = kTrac
 layout(constant_id = TRAVERSE_CONSTANT_ID + 4) const uint kEntriesPerWord = 0u; // of lists; 0: there are none
 #endif
 
-const uint kMantissaBits = 23u;
-const uint kRootShift = kMantissaBits - 2u; // of the mantissa bits that number the root's cells
+#include "lib/unit_space.glsl"
+
 #ifdef TRAVERSE_VARIABLES
 #define kLeafShift (kMantissaBits - 2u * kNodeLevels) // a variable makes no constant
 #else
@@ -85,12 +86,6 @@ vec3 planeTimes(uvec3 planes, vec3 origin, vec3 inverse)
     precise vec3 distances = uintBitsToFloat(planes) - origin;
     precise vec3 times = distances * inverse;
     return times;
-}
-
-// Length in unit space of this many mantissa steps.
-float edgeOf(uint size)
-{
-    return float(size) / float(1u << kMantissaBits);
 }
 
 // Notes the node whose cells are numbered by the mantissa bits at shift.
@@ -181,7 +176,7 @@ Traversal traverse(vec3 ray_origin, vec3 ray_inverse, float t_min, float t_max, 
     precise vec3 flipped = 3.0 - ray_origin;
     vec3 origin = mix(ray_origin, flipped, mirrored);
     vec3 inverse = abs(ray_inverse);
-    uint mirror = (mirrored.x ? 9u : 0u) | (mirrored.y ? 18u : 0u) | (mirrored.z ? 36u : 0u); // bits of a cell number
+    uint mirror = mirrorBits(mirrored);
 
     // The event that enters the root, or the start.
     t_min = max(t_min, kTraceTimeMin);

@@ -38,30 +38,31 @@ float tileStart(uvec2 tile)
     vec3 offset = rayOffset(middle, params.camera.half_pixel_x, params.camera.half_pixel_y);
     vec3 reach = kTileReach * (abs(params.camera.half_pixel_x) + abs(params.camera.half_pixel_y));
     vec3 sizes = abs(middle.x * params.camera.half_pixel_x) + abs(middle.y * params.camera.half_pixel_y) + reach;
-    float width = 2.0 * kSmallCell * max(reach.x, max(reach.y, reach.z));
+    float small_edge = 2.0 * kSmallCell * max(reach.x, max(reach.y, reach.z));
 
-    // How far any ray of the tile may be from the one in its middle.
-    vec3 from = abs(params.camera.origin) + (kOrthographic ? sizes : vec3(0.0));
-    vec3 origin_reach = vec3(kRounding * (4.0 + max(from.x, max(from.y, from.z)))) + (kOrthographic ? reach : vec3(0.0));
-    vec3 turn = kRounding * (abs(params.camera.forward) + (kOrthographic ? vec3(0.0) : sizes)) +
-                (kOrthographic ? vec3(0.0) : reach);
+    // How far the rays of the tile may be from the one in its middle, rounding included.
+    vec3 farthest = abs(params.camera.origin) + (kOrthographic ? sizes : vec3(0.0));
+    float origin_rounding = kRounding * (4.0 + max(farthest.x, max(farthest.y, farthest.z)));
+    vec3 origin_reach = origin_rounding + (kOrthographic ? reach : vec3(0.0));
+    vec3 direction_sizes = abs(params.camera.forward) + (kOrthographic ? vec3(0.0) : sizes);
+    vec3 direction_reach = kRounding * direction_sizes + (kOrthographic ? vec3(0.0) : reach);
 
     vec3 origin = params.camera.origin + (kOrthographic ? offset : vec3(0.0));
     vec3 direction = params.camera.forward + (kOrthographic ? vec3(0.0) : offset);
     bvec3 upward = greaterThanEqual(direction, vec3(0.0));
     vec3 ahead = mix(vec3(-1.0), vec3(1.0), upward);
-    vec3 fast_inverse = inverseDirection(direction + ahead * turn);
-    vec3 slow_inverse = inverseDirection(direction - ahead * turn);
+    vec3 fast_inverse = inverseDirection(direction + ahead * direction_reach);
+    vec3 slow_inverse = inverseDirection(direction - ahead * direction_reach);
+    // Slow rays leave, so their times are made later; where rays go both ways they enter, so they are made earlier.
     bvec3 one_way = equal(greaterThan(slow_inverse, vec3(0.0)), upward);
-    Beam paths;
-    paths.fast_origin = origin + ahead * origin_reach;
-    paths.slow_origin = origin - ahead * origin_reach;
-    paths.fast_inverse = (1.0 - kRounding) * fast_inverse;
-    paths.slow_inverse = mix(vec3(1.0 - kRounding), vec3(1.0 + kRounding), one_way) * slow_inverse; // later, or sooner
-    paths.small = max((1.0 + kRounding) * params.detail, kOrthographic ? vec2(0.0, width) : vec2(width, 0.0));
+    Beam beam;
+    beam.fast_origin = origin + ahead * origin_reach;
+    beam.slow_origin = origin - ahead * origin_reach;
+    beam.fast_inverse = (1.0 - kRounding) * fast_inverse;
+    beam.slow_inverse = mix(vec3(1.0 - kRounding), vec3(1.0 + kRounding), one_way) * slow_inverse;
+    beam.small = max((1.0 + kRounding) * params.detail, kOrthographic ? vec2(0.0, small_edge) : vec2(small_edge, 0.0));
     g_halves = uint64_t_ConstPtr(uint64_t(params.nodes));
-    float start = beamStart(paths, (upward.x ? 0u : 9u) | (upward.y ? 0u : 18u) | (upward.z ? 0u : 36u));
-    return start == kTraceTimeMax ? kTileDead : max(start, kTraceTimeMin);
+    return beamStart(beam, mirrorBits(not(upward))); // kTileDead is what it returns for no cell
 }
 
 // The tile of a thread, or one outside. Consecutive blocks are far apart, so that all parts of the live list take

@@ -7,29 +7,32 @@
 // passed the second one; if rays go both ways, from when the first of them are there. The beam meets a cell where these
 // intervals of all axes overlap. The includer widens the beam by more than what the rays' own times are rounded by.
 //
-// Way. Nodes are taken depth first, children in an order in which no ray meets a later one first. An iteration loads a
-// node and finds which of its 64 children the beam meets before the earliest time so far. It notes them for later, or,
-// where children are voxels or small compared with the beam, takes the first one's time. Then it goes to the next child
-// of the deepest node that has any left. (S. Laine, T. Karras, Efficient Sparse Voxel Octrees, 2010, find the times by
-// a coarse picture, and may miss what falls between its rays.)
+// Way. Nodes are taken depth first, children in the order in which the middle ray meets them. An iteration loads a node
+// and finds which of its 64 children the beam meets before the earliest time so far. It notes them for later, or, where
+// children are voxels or small compared with the beam, takes the first one's time. Then it goes to the next child of
+// the deepest node that has any left. Children lie in their parents, in rounded times, too: a beam that ends at larger
+// cells starts no later.
 //
-// The includer declares the constants kNodeLevels, kEntriesPerWord and kIterationsMax (after as many iterations, children
-// of any size count as small), and defines before:
+// A. Reshetov, A. Soupikov, J. Hurley, Multi-Level Ray Tracing Algorithm, 2005, find by such intervals where a tile's
+// rays enter a kd-tree. S. Laine, T. Karras, Efficient Sparse Voxel Octrees, 2010, find times in an octree by a coarse
+// picture, and may miss what falls between its rays.
+//
+// The includer includes shared/svdag.h, shared/trace.h and lib/morton.glsl before, declares the constants kNodeLevels,
+// kEntriesPerWord and kIterationsMax (after as many iterations, children of any size count as small), and defines:
 //   uvec2 loadHalf(uint half_index), uint loadEntry(uint index, uint per_word)    as for lib/traverse.glsl
 
-const uint kMantissaBits = 23u;
-const uint kRootShift = kMantissaBits - 2u; // of the mantissa bits that number the root's cells
+#include "lib/unit_space.glsl"
 
 struct Beam // inverse directions may have any sign, but are finite and not 0
 {
-    vec3 fast_origin;  // of the ray of an axis that is ahead of the others
-    vec3 slow_origin;  // of the one behind them
-    vec3 fast_inverse; // of their directions
+    vec3 fast_origin; // bound of the rays' origins, on the side of each axis to which the middle ray goes
+    vec3 slow_origin; // on the other side
+    vec3 fast_inverse; // 1 / the bound of the rays' directions, on the same sides
     vec3 slow_inverse;
-    vec2 small; // cells are small whose edge is at most max(small.x * t, small.y) in unit space
+    vec2 small; // cells are small whose edge is at most max(small.x * t, small.y) when the beam has left their node
 };
 
-struct Met // of a node's children
+struct MetChildren // of a node
 {
     uvec2 children; // a bit each
     float first;    // when the beam meets the first one; kTraceTimeMax: there is none
@@ -55,7 +58,7 @@ void meetLayers(uint corner, uint size, float fast_origin, float slow_origin, fl
 }
 
 // The children of a node that the beam meets until a time. mask: those that exist.
-Met meetChildren(Beam beam, uvec3 corner, uint size, uvec2 mask, float until)
+MetChildren meetChildren(Beam beam, uvec3 corner, uint size, uvec2 mask, float until)
 {
     vec4 enter_x, enter_y, enter_z, leave_x, leave_y, leave_z;
     meetLayers(corner.x, size, beam.fast_origin.x, beam.slow_origin.x, beam.fast_inverse.x, beam.slow_inverse.x,
@@ -64,7 +67,7 @@ Met meetChildren(Beam beam, uvec3 corner, uint size, uvec2 mask, float until)
                enter_y, leave_y);
     meetLayers(corner.z, size, beam.fast_origin.z, beam.slow_origin.z, beam.fast_inverse.z, beam.slow_inverse.z,
                enter_z, leave_z);
-    Met met;
+    MetChildren met;
     met.last = min(min(max(leave_x.x, leave_x.w), max(leave_y.x, leave_y.w)), max(leave_z.x, leave_z.w));
     enter_z = max(enter_z, kTraceTimeMin);
     leave_z = min(leave_z, until);
@@ -105,13 +108,6 @@ uint firstChild(uvec2 children, uint mirror)
     return child;
 }
 
-// Coordinates of a child among its siblings.
-uvec3 cellOfChild(uint child)
-{
-    uvec3 bits = uvec3(child, child >> 1, child >> 2);
-    return (bits & 1u) | ((bits >> 2) & 2u);
-}
-
 // The time at which the beam meets the first occupied cell; kTraceTimeMax if it meets none. mirror: as of firstChild(),
 // of the rays' directions; the result does not depend on it.
 float beamStart(Beam beam, uint mirror)
@@ -129,10 +125,10 @@ float beamStart(Beam beam, uint mirror)
         uint size = 1u << (kRootShift - 2u * level);
         uvec2 lower = loadHalf(2u * node);
         uvec2 upper = loadHalf(2u * node + 1u);
-        Met met = meetChildren(beam, corner, size, uvec2(lower.x, upper.x), start);
-        float edge = float(size) / float(1u << kMantissaBits);
-        bool ends = level + 1u == kNodeLevels || edge <= max(beam.small.x * met.last, beam.small.y) ||
-                    iterations >= kIterationsMax;
+        MetChildren met = meetChildren(beam, corner, size, uvec2(lower.x, upper.x), start);
+        // A ray that stops at cells of this size, for a level of detail, does so before the beam has left the node.
+        bool ends = level + 1u == kNodeLevels || iterations >= kIterationsMax ||
+                    edgeOf(size) <= max(beam.small.x * met.last, beam.small.y);
         start = ends ? min(start, met.first) : start;
 
         // Note the children, and find the deepest node that has any.
@@ -164,7 +160,7 @@ float beamStart(Beam beam, uint mirror)
             node = listed ? named : node;
         }
         uint shift = kRootShift - 2u * parent_level;
-        corner = (corner & (~0u << (shift + 2u))) + (cellOfChild(child) << shift);
+        corner = (corner & (~0u << (shift + 2u))) + (cellNumbered(child) << shift);
         level = parent_level + 1u;
     }
     return start;

@@ -1,6 +1,7 @@
 #version 460
 // SPDX-License-Identifier: MIT
-// Writes where rays may begin: for each cell of a grid over the root cube, the nodes that contain it (trace/node_paths.h).
+// Writes where rays may begin: for each cell of a grid over the root cube, the nodes that contain it
+// (trace/node_paths.h).
 #extension GL_GOOGLE_include_directive : require
 #include "trace/node_paths.h"
 #include "lib/dispatch.glsl"

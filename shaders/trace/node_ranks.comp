@@ -1,6 +1,7 @@
 #version 460
 // SPDX-License-Identifier: MIT
-// Writes where the ranks of hits in a DAG begin (trace/node_paths.h), behind the nodes that trace/node_paths has written.
+// Writes where the ranks of hits in a DAG begin (trace/node_paths.h), behind the nodes that trace/node_paths has
+// written.
 #extension GL_GOOGLE_include_directive : require
 #include "trace/node_paths.h"
 #include "lib/dispatch.glsl"

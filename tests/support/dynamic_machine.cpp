@@ -402,7 +402,7 @@ DynamicMachine::Pixels DynamicMachine::picturesOf(const DeviceTree& tree)
 {
     ShotTaker& taker = m_takers.front();
     Shot shot = m_setting.shot;
-    shot.beam = false; // the beam takes time and does not change the pictures
+    shot.beam = false; // does not change the pictures, which are compared with those of either kind
     m_device.run(
         [&](vk::FrameGraph& graph)
         {

@@ -52,6 +52,7 @@ std::vector<ViewCamera> manyCameras(const Grid& grid)
     cameras.push_back(ViewCamera::lookAt(edge * glm::dvec3(20.0, 7.0, -9.0), middle, 1.0));
     cameras.push_back(ViewCamera::lookAt(edge * glm::dvec3(300.0, 200.0, 100.0), middle, 0.004));
     cameras.push_back(ViewCamera::lookAt(edge * glm::dvec3(5e3, 2e3, 1e3), middle, 0.0003));
+    cameras.push_back(ViewCamera::lookAt(edge * glm::dvec3(-8e4, 4e4, 5e4), middle, 1e-5));
     cameras.push_back(ViewCamera::lookAt(edge * glm::dvec3(0.5, 4.0, 0.5), middle, 0.4));
     cameras.push_back(ViewCamera::lookAt(edge * glm::dvec3(-1.0, 0.5, 0.5), edge * glm::dvec3(-2.0, 0.5, 0.5), 1.0));
     for (const double half_height : {0.02, 0.3, 0.8, 5.0})
@@ -59,6 +60,13 @@ std::vector<ViewCamera> manyCameras(const Grid& grid)
         ViewCamera camera = ViewCamera::lookAt(edge * glm::dvec3(1.4, 1.1, 1.7), middle, 0.5);
         camera.orthographic = true;
         camera.half_height = half_height * edge;
+        cameras.push_back(camera);
+    }
+    for (const glm::dvec3& away : {glm::dvec3(2.0, 0.0, 0.0), glm::dvec3(0.0, 0.0, -2.0)}) // along axes, to 0 and -0
+    {
+        ViewCamera camera = ViewCamera::lookAt(middle + edge * away, middle, 0.5);
+        camera.orthographic = true;
+        camera.half_height = 0.4 * edge;
         cameras.push_back(camera);
     }
     return cameras;

@@ -67,7 +67,7 @@ std::string TreeProbe::traceFault(const TreeData& tree, std::mt19937& random)
 {
     const DeviceTree view = uploadTree(m_device, tree);
     TraceOptions options;
-    options.beam = random() % 4 == 0; // its passes take ten times as long as all others at this picture size
+    options.beam = random() % 2 == 0;
     options.occlusion_rays = random() % 2;
     options.detail_pixels = random() % 3 == 0 ? 4.0F : 0.0F;
     const Bounds all = {tree.grid.origin,

@@ -57,8 +57,9 @@ struct TraceOptions
     std::uint32_t occlusion_rays = TraceInfo().occlusion_rays;
     float occlusion_reach = TraceInfo().occlusion_reach;
     float detail_pixels = TraceInfo().detail_pixels;
-    std::uint32_t detail_level = UINT32_MAX;                 // stop at this level of nodes
-    std::uint32_t iterations_max = gpu::kTraceIterationsMax; // of an invocation; fewer only for tests of later rounds
+    std::uint32_t detail_level = UINT32_MAX; // stop at this level of nodes
+    /// Of an invocation. Fewer only for tests: of later rounds, and of beams that end sooner.
+    std::uint32_t iterations_max = gpu::kTraceIterationsMax;
 
     [[nodiscard]] bool hasDetail() const { return detail_pixels > 0.0F || detail_level != UINT32_MAX; }
 };

@@ -8,7 +8,7 @@ namespace zvo
 {
 
 /// Records the passes that find where the rays of each tile start: they fill buffers.starts, live and args, and clear
-/// status. Cost: tiles.
+/// status. Cost: tiles x nodes that a beam meets.
 void traceBeam(vk::FrameGraph& graph, const DeviceTree& tree, const TraceCamera& camera, const TraceOptions& options,
                TraceBuffers& buffers);
 

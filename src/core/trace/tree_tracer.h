@@ -11,7 +11,7 @@ namespace zvo
 {
 
 /// Traces pictures of one tree or several. Owns the buffers of a picture and node paths, which are made anew when the
-/// tree's version (DeviceTree::version) is not the one for which it was made.
+/// tree's version (DeviceTree::version) is not the one for which they were made.
 class TreeTracer
 {
 public:

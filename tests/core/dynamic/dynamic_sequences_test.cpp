@@ -87,8 +87,7 @@ rc::Gen<Shot> anyShot()
         rc::gen::set(&Shot::eye, rc::gen::weightedOneOf<std::array<int, 3>>({{2, places(-8, 13)}, {1, inside}})),
         rc::gen::set(&Shot::target, places(0, 5)),
         rc::gen::set(&Shot::orthographic, rc::gen::weightedElement<bool>({{3, false}, {1, true}})),
-        rc::gen::set(&Shot::beam, rc::gen::weightedElement<bool>({{15, false}, {1, true}})),
-        rc::gen::set(&Shot::lit, rc::gen::arbitrary<bool>()),
+        rc::gen::set(&Shot::beam, rc::gen::arbitrary<bool>()), rc::gen::set(&Shot::lit, rc::gen::arbitrary<bool>()),
         rc::gen::set(&Shot::coarse, rc::gen::weightedElement<bool>({{4, false}, {1, true}})));
 }
 

@@ -105,7 +105,8 @@ TEST(TraceBeam, TilesStartJustBeforeTheFirstVoxelThatTheirRaysMayBeIn)
     std::mt19937 random(45);
     std::uint32_t dead_tiles = 0;
     std::uint32_t started_tiles = 0;
-    for (const std::uint32_t depth : {1U, 2U, 4U, 5U, 7U, 9U, 12U})
+    std::uint32_t sooner_tiles = 0;
+    for (const std::uint32_t depth : {1U, 2U, 4U, 5U, 7U, 9U, 12U, 13U, 17U})
     {
         const test::Codes codes = test::randomCodes(depth, std::min(600U, 1U << (3 * depth - 1)), random);
         const DeviceTree octree = test::octreeOf(device(), codes, depth);
@@ -137,17 +138,20 @@ TEST(TraceBeam, TilesStartJustBeforeTheFirstVoxelThatTheirRaysMayBeIn)
             const std::vector<float> starts = startsWith({});
             const std::vector<float> soon = startsWith({.iterations_max = 3}); // of beams that end at large nodes
             const glm::uvec2 tiles = (glm::uvec2(kPictureWidth, kPictureHeight) + gpu::kTileEdge - 1U) / gpu::kTileEdge;
-            // Beside rounding, a beam may stop at cells up to half as wide as it is.
             const double far = glm::length(glm::dvec3(camera.rays.origin) - 1.5) + 1.0;
-            const double width = gpu::kTileEdge * 2.0 * glm::length(glm::dvec3(camera.rays.half_pixel_x)) *
-                                 (camera.orthographic ? 1.0 : far);
-            const double room = 1e-4 * (1.0 + far) * edge + 1e-5 * (1.0 + far) + (width > 2.0 * edge ? width : 0.0);
+            const double pixel = 2.0 * glm::length(glm::dvec3(camera.rays.half_pixel_x));
             for (std::size_t i = 0; i < starts.size(); ++i)
             {
                 const TileRays rays = raysOfTile(camera, {i % tiles.x, i / tiles.x});
                 const double first = firstMeeting(rays, corners, edge, 0.0);
                 ASSERT_LE(soon[i], starts[i]) << "tile " << i;
+                // Beside rounding, a beam may end at cells up to half as wide as it is when it has left their node.
+                const double by_time = camera.orthographic ? 0.0 : gpu::kTileEdge * pixel;
+                const double width = camera.orthographic ? gpu::kTileEdge * pixel : by_time * (starts[i] + 4.0 * edge);
+                const double cell = by_time < 0.2 ? 0.5 * width / (1.0 - 4.0 * by_time) : kNever;
+                const double room = 1e-5 * (1.0 + far) + (cell > edge ? cell : 0.0);
                 const double first_near = firstMeeting(rays, corners, edge, room);
+                sooner_tiles += soon[i] < starts[i] ? 1 : 0;
                 if (starts[i] == gpu::kTileDead)
                 {
                     ASSERT_EQ(first, kNever) << "tile " << i;
@@ -155,7 +159,9 @@ TEST(TraceBeam, TilesStartJustBeforeTheFirstVoxelThatTheirRaysMayBeIn)
                 }
                 else
                 {
-                    ASSERT_LE(starts[i], std::max(first, double{gpu::kTraceTimeMin})) << "tile " << i;
+                    // Strictly before, so that the ray enters the voxel, unless it begins in there.
+                    ASSERT_TRUE(starts[i] < first || starts[i] == gpu::kTraceTimeMin)
+                        << "tile " << i << " starts at " << starts[i] << ", first at " << first;
                     ASSERT_GE(starts[i] * (1.0 + 1e-5), first_near) << "tile " << i << ", first at " << first;
                     started_tiles += first != kNever ? 1 : 0;
                 }
@@ -164,6 +170,7 @@ TEST(TraceBeam, TilesStartJustBeforeTheFirstVoxelThatTheirRaysMayBeIn)
     }
     EXPECT_GT(dead_tiles, 1000U);
     EXPECT_GT(started_tiles, 1000U);
+    EXPECT_GT(sooner_tiles, 1000U);
 }
 
 } // namespace

@@ -71,6 +71,7 @@ TEST(TracePicture, BeamDoesNotChangeThePicture)
         {7, test::randomCodes(7, 400, random)},
         {8, test::randomCodes(8, 3000, random)},
         {11, test::randomCodes(11, 3000, random)},
+        {15, test::randomCodes(15, 300, random)},
     };
     std::uint32_t saved_tiles = 0;
     for (const auto& [depth, codes] : sets)
@@ -470,6 +471,7 @@ TEST(TracePicture, ParametersLieWhereTheKernelsExpectThem)
             {
                 ZVO_EXPECT_OFFSET(BeamParams, camera);
                 ZVO_EXPECT_OFFSET(BeamParams, block_stride);
+                ZVO_EXPECT_OFFSET(BeamParams, detail);
                 ++checked;
             }
             else if (name == "ShadowParams")

@@ -108,13 +108,16 @@ void expectSamePictures(const DeviceTree& octree, const DeviceTree& dag, const o
                         const TraceCamera& camera, std::uint32_t width, std::uint32_t height,
                         const TraceOptions& options, bool must_hit, bool table = true)
 {
-    const Picture expected = takePicture(device(), octree, camera, width, height, options);
+    NodePaths octree_paths(device().device());
+    TraceBuffers expected_buffers(device().device(), width, height);
+    const Picture expected = takePicture(device(), octree, octree_paths, camera, expected_buffers, options);
     NodePaths paths(device().device(), table);
     TraceBuffers buffers(device().device(), width, height);
     const Picture picture = takePicture(device(), dag, paths, camera, buffers, options);
     EXPECT_EQ(picture.image, expected.image);
     EXPECT_EQ(picture.light, expected.light);
     EXPECT_EQ(picture.live_tiles, expected.live_tiles);
+    EXPECT_EQ(device().download(buffers.starts), device().download(expected_buffers.starts));
     EXPECT_EQ(picture.capped_rays, expected.capped_rays);
     const bool with_index = octree.hasAttributes() && showsAttributes(options.view);
     ASSERT_NO_FATAL_FAILURE(
