@@ -25,11 +25,11 @@
 
 struct Beam // inverse directions may have any sign, but are finite and not 0
 {
-    vec3 fast_origin; // bound of the rays' origins, on the side of each axis to which the middle ray goes
-    vec3 slow_origin; // on the other side
+    vec3 fast_origin;  // bound of the rays' origins, on the side of each axis to which the middle ray goes
+    vec3 slow_origin;  // on the other side
     vec3 fast_inverse; // 1 / the bound of the rays' directions, on the same sides
     vec3 slow_inverse;
-    vec2 small; // cells are small whose edge is at most max(small.x * t, small.y) when the beam has left their node
+    vec2 small;        // cells are small whose edge is at most max(small.x * t, small.y) when the beam has left their node
 };
 
 struct MetChildren // of a node
@@ -109,7 +109,7 @@ uint firstChild(uvec2 children, uint mirror)
 }
 
 // The time at which the beam meets the first occupied cell; kTraceTimeMax if it meets none. mirror: as of firstChild(),
-// of the rays' directions; the result does not depend on it.
+// for the middle ray; the result does not depend on it.
 float beamStart(Beam beam, uint mirror)
 {
     [[unroll]] for (uint k = 0u; k < kNodeLevels - 1u; ++k)
