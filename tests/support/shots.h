@@ -36,7 +36,7 @@ class ShotTaker
 public:
     explicit ShotTaker(vk::Device& device);
 
-    /// Records the passes for pictures of tree, which overwrite the last ones. beam is made anew.
+    /// Records the passes for pictures of tree, which overwrite the last ones. paths are made anew.
     void record(vk::FrameGraph& graph, const DeviceTree& tree, NodePaths& paths, const TraceCamera& camera,
                 const Shot& shot);
 
