@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Plots of the reports of `zvo bench --baselines`, drawn by gnuplot: scripts with their data, and SVG files of them."""
+"""Plots of the reports of `zvo-bench baselines`, drawn by gnuplot: scripts with their data, and SVG files of them."""
 
 import hashlib
 import html

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Reads the reports of `zvo bench --baselines --json`, zvo.bench_baselines/1. Arrays and values may be absent."""
+"""Reads the reports of `zvo-bench baselines --json`, zvo.bench_baselines/1. Arrays and values may be absent."""
 
 import json
 import statistics

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The page and the table in Markdown that say what the reports of `zvo bench --baselines` have."""
+"""The page and the table in Markdown that say what the reports of `zvo-bench baselines` have."""
 
 import re
 import textwrap
@@ -300,7 +300,7 @@ def page_text(reports, reading):
         "The algorithms of zvo's sources beside zvo's own, on the same device in turns: Y. Pan's thesis (2021), "
         "ushiostarfish's slides (2023), C. Crassin and S. Green (2012), a hash table for DAGs, a DDA through a grid "
         "of bits, and Embree. [architecture.md](../architecture.md#baselines) says how they were written. "
-        "`bench/results-page` makes this page from the reports of `zvo bench --baselines` in `bench/results`; "
+        "`bench/results-page` makes this page from the reports of `zvo-bench baselines` in `bench/results`; "
         "[Reading it](#reading-it) is written by hand.")
     for report in reports:
         text += f"## {report.folder}: {report.device}\n" + "".join(section(report) for section in SECTIONS)

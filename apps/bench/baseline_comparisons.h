@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The comparisons of `zvo bench --baselines`: each measures the algorithms of one source beside zvo's on a subject, and
+// The comparisons of `zvo-bench baselines`: each measures the algorithms of one source beside zvo's on a subject, and
 // throws Error{Usage} or Error{Memory} where they cannot take it.
 #pragma once
 
@@ -35,8 +35,8 @@ class BaselineSubject
 public:
     /// Builds the octree. scene: what stands still; uploaded: the same in device memory. All references must outlive
     /// this object.
-    BaselineSubject(const BenchOptions& options, vk::HeadlessDevice& device, std::string name, const Scene& scene,
-                    const GpuScene& uploaded, const Grid& grid, const ViewCamera& camera);
+    BaselineSubject(const BenchBaselinesOptions& options, vk::HeadlessDevice& device, std::string name,
+                    const Scene& scene, const GpuScene& uploaded, const Grid& grid, const ViewCamera& camera);
 
     /// Milliseconds of the device for the parts of a build.
     double buildMs(bool voxelize, bool build);
@@ -59,7 +59,7 @@ public:
         rows.sizes.push_back({m_case, form, nodes, bytes});
     }
 
-    [[nodiscard]] const BenchOptions& options() const { return m_options; }
+    [[nodiscard]] const BenchBaselinesOptions& options() const { return m_options; }
     [[nodiscard]] vk::HeadlessDevice& device() const { return m_device; }
     [[nodiscard]] const BaselineCase& what() const { return m_case; }
     [[nodiscard]] const Scene& scene() const { return m_scene; }
@@ -69,7 +69,7 @@ public:
     [[nodiscard]] const DeviceTree& octree() const { return m_octree; }
 
 private:
-    const BenchOptions& m_options;
+    const BenchBaselinesOptions& m_options;
     vk::HeadlessDevice& m_device;
     const Scene& m_scene;
     const GpuScene& m_uploaded;

@@ -160,7 +160,8 @@ Json caseJson(const BaselineCase& what)
 
 } // namespace
 
-std::string baselineTables(const vk::DeviceReport& device, const BenchOptions& options, const BaselineRows& rows)
+std::string baselineTables(const vk::DeviceReport& device, const BenchBaselinesOptions& options,
+                           const BaselineRows& rows)
 {
     return fmt::format(
         "zvo {} on {} ({}, {}; processor: {}). {} coverage, {}; milliseconds, medians of {} runs in "
@@ -171,7 +172,7 @@ std::string baselineTables(const vk::DeviceReport& device, const BenchOptions& o
         tableOf(workColumns(), rows.works), tableOf(sizeColumns(), rows.sizes), tableOf(orderColumns(), rows.orders));
 }
 
-Json baselineJson(const vk::DeviceReport& device, const BenchOptions& options, const BaselineRows& rows)
+Json baselineJson(const vk::DeviceReport& device, const BenchBaselinesOptions& options, const BaselineRows& rows)
 {
     Json json = headJson("zvo.bench_baselines/1", device);
     json["instruction_set"] = instructionSet();

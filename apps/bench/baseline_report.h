@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The tables and the JSON of `zvo bench --baselines`. bench/results-page makes a page of the JSON.
+// The tables and the JSON of `zvo-bench baselines`. bench/results-page makes a page of the JSON.
 #pragma once
 
 #include "bench/baseline_rows.h"
@@ -13,9 +13,10 @@ namespace zvo::cli
 {
 
 /// Works with their ratios, sizes, and orders of nodes.
-std::string baselineTables(const vk::DeviceReport& device, const BenchOptions& options, const BaselineRows& rows);
+std::string baselineTables(const vk::DeviceReport& device, const BenchBaselinesOptions& options,
+                           const BaselineRows& rows);
 
 /// Schema zvo.bench_baselines/1: all rows, and the figures that the sources published.
-Json baselineJson(const vk::DeviceReport& device, const BenchOptions& options, const BaselineRows& rows);
+Json baselineJson(const vk::DeviceReport& device, const BenchBaselinesOptions& options, const BaselineRows& rows);
 
 } // namespace zvo::cli

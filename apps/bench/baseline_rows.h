@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What `zvo bench --baselines` measures: other algorithms beside zvo's, in turns.
+// What `zvo-bench baselines` measures: other algorithms beside zvo's, in turns.
 #pragma once
 
 #include "bench/bench_table.h"

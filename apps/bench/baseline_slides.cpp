@@ -14,7 +14,7 @@ void compareSlides(BaselineSubject& subject, BaselineRows& rows)
 {
     using namespace baseline;
     vk::HeadlessDevice& device = subject.device();
-    const BenchOptions& options = subject.options();
+    const BenchBaselinesOptions& options = subject.options();
     const auto buildNodes = [&](bool is_dag, bool attributes, SlidesTree& tree)
     {
         tree = {};

@@ -9,7 +9,7 @@
 namespace zvo::cli
 {
 
-BaselineSubject::BaselineSubject(const BenchOptions& options, vk::HeadlessDevice& device, std::string name,
+BaselineSubject::BaselineSubject(const BenchBaselinesOptions& options, vk::HeadlessDevice& device, std::string name,
                                  const Scene& scene, const GpuScene& uploaded, const Grid& grid,
                                  const ViewCamera& camera)
     : m_options(options), m_device(device), m_scene(scene),

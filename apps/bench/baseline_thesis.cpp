@@ -23,7 +23,7 @@ namespace
 
 constexpr baseline::TileNumbering kAsPublished = baseline::TileNumbering::Atomic;
 
-baseline::ThesisTarget thesisTarget(const BenchOptions& options)
+baseline::ThesisTarget thesisTarget(const BenchBaselinesOptions& options)
 {
     return options.attributes ? baseline::ThesisTarget::Colors : baseline::ThesisTarget::Occupancy;
 }
@@ -45,7 +45,7 @@ struct UpdateMs
 class ThesisUpdater
 {
 public:
-    ThesisUpdater(vk::HeadlessDevice& device, const BenchOptions& options, const Grid& grid, bool bounds)
+    ThesisUpdater(vk::HeadlessDevice& device, const BenchBaselinesOptions& options, const Grid& grid, bool bounds)
         : m_device(device), m_options(options), m_bounds(bounds), m_cells(device.device(), grid),
           m_levels(device.device(), grid)
     {
@@ -81,7 +81,7 @@ private:
     }
 
     vk::HeadlessDevice& m_device;
-    const BenchOptions& m_options;
+    const BenchBaselinesOptions& m_options;
     bool m_bounds; // visit only cells between the codes that occur
     baseline::ThesisCells m_cells;
     baseline::ThesisLevels m_levels;
@@ -153,7 +153,7 @@ void compareThesis(BaselineSubject& subject, BaselineRows& rows)
 void compareThesisUpdate(BaselineSubject& subject, const AnimatedScene& animated, BaselineRows& rows)
 {
     vk::HeadlessDevice& device = subject.device();
-    const BenchOptions& options = subject.options();
+    const BenchBaselinesOptions& options = subject.options();
     AnimatedScene moving;
     moving.objects = animated.objects;
     LiveScene live(device, AnimatedScene(animated), subject.grid(),

@@ -198,7 +198,7 @@ std::vector<BalanceRatio> ratiosOf(const std::vector<BalanceRow>& rows, const st
     return ratios;
 }
 
-std::string tableHead(const vk::DeviceReport& device, const BenchOptions& options)
+std::string tableHead(const vk::DeviceReport& device, const BenchBalanceOptions& options)
 {
     return fmt::format("zvo {} on {} ({}, {}), {} coverage. Voxelization and octree construction, GPU milliseconds: "
                        "median (min-max) of {} warm {}.\n\n",
@@ -235,8 +235,8 @@ Json rowJson(const BalanceRow& row)
     return json;
 }
 
-Json balanceJson(const vk::DeviceReport& device, const BenchOptions& options, const std::vector<BalanceRow>& rows,
-                 const std::vector<BalanceRatio>& ratios)
+Json balanceJson(const vk::DeviceReport& device, const BenchBalanceOptions& options,
+                 const std::vector<BalanceRow>& rows, const std::vector<BalanceRatio>& ratios)
 {
     Json json = headJson("zvo.balance/1", device);
     json["coverage"] = coverageName(options.coverage);
@@ -262,8 +262,8 @@ class BalanceBench
 {
 public:
     /// show: called with every row.
-    BalanceBench(const BenchOptions& options, const std::vector<std::uint32_t>& depths, vk::HeadlessDevice& device,
-                 std::function<void(const BalanceRow&)> show)
+    BalanceBench(const BenchBalanceOptions& options, const std::vector<std::uint32_t>& depths,
+                 vk::HeadlessDevice& device, std::function<void(const BalanceRow&)> show)
         : m_options(options), m_depths(depths), m_device(device), m_show(std::move(show))
     {
     }
@@ -331,7 +331,7 @@ private:
         m_rows.push_back(std::move(row));
     }
 
-    const BenchOptions& m_options;
+    const BenchBalanceOptions& m_options;
     const std::vector<std::uint32_t>& m_depths;
     vk::HeadlessDevice& m_device;
     std::function<void(const BalanceRow&)> m_show;
@@ -341,7 +341,7 @@ private:
 
 } // namespace
 
-void benchBalance(const BenchOptions& options)
+void benchBalance(const BenchBalanceOptions& options)
 {
     std::vector<fs::path> paths;
     if (!options.scenes.empty() || options.scene_folder)

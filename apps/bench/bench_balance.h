@@ -7,8 +7,8 @@
 namespace zvo::cli
 {
 
-/// `zvo bench --balance`: measures generated scenes, and files if any were named, at several resolutions. Prints times
+/// `zvo-bench balance`: measures generated scenes, and files if any were named, at several resolutions. Prints times
 /// and their ratios as a table, JSON, or both. Throws Error.
-void benchBalance(const BenchOptions& options);
+void benchBalance(const BenchBalanceOptions& options);
 
 } // namespace zvo::cli

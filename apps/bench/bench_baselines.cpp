@@ -41,7 +41,7 @@ struct BaselineScene
     AnimatedScene animated;
 };
 
-AnimatedScene loadForBaselines(const BenchOptions& options, const fs::path& path)
+AnimatedScene loadForBaselines(const BenchBaselinesOptions& options, const fs::path& path)
 {
     if (!isSceneFile(path))
     {
@@ -53,10 +53,10 @@ AnimatedScene loadForBaselines(const BenchOptions& options, const fs::path& path
 }
 
 // The named scenes, or the usual ones and the thesis's, as far as their models are there.
-std::vector<BaselineScene> loadBaselineScenes(const BenchOptions& options)
+std::vector<BaselineScene> loadBaselineScenes(const BenchBaselinesOptions& options)
 {
     std::vector<BaselineScene> scenes;
-    for (const fs::path& path : benchScenes(options))
+    for (const fs::path& path : benchScenes(options, true))
     {
         const fs::path stem = path.stem();
         scenes.push_back({(isSceneFile(path) ? stem.stem() : stem).string(), loadForBaselines(options, path)});
@@ -101,7 +101,7 @@ void attempt(const std::string& scene, std::uint32_t depth, const char* compared
     }
 }
 
-void compareScene(const BenchOptions& options, vk::HeadlessDevice& device, const BaselineScene& scene,
+void compareScene(const BenchBaselinesOptions& options, vk::HeadlessDevice& device, const BaselineScene& scene,
                   const GpuScene& uploaded, std::uint32_t depth, BaselineRows& rows)
 {
     const AnimatedScene& animated = scene.animated;
@@ -130,7 +130,7 @@ void compareScene(const BenchOptions& options, vk::HeadlessDevice& device, const
 
 } // namespace
 
-void benchBaselines(const BenchOptions& options)
+void benchBaselines(const BenchBaselinesOptions& options)
 {
     const std::vector<BaselineScene> scenes = loadBaselineScenes(options);
     std::optional<Output> report = openReport(options.output);

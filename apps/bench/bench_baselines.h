@@ -6,9 +6,9 @@
 namespace zvo::cli
 {
 
-/// `zvo bench --baselines`: measures the algorithms of zvo's sources (src/baseline) beside zvo's own, on scenes at
+/// `zvo-bench baselines`: measures the algorithms of zvo's sources (src/baseline) beside zvo's own, on scenes at
 /// several resolutions. Prints tables, JSON, or both. What a device's memory does not suffice for is left out, with a
 /// warning. Throws Error.
-void benchBaselines(const BenchOptions& options);
+void benchBaselines(const BenchBaselinesOptions& options);
 
 } // namespace zvo::cli

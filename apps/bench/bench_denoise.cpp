@@ -131,7 +131,8 @@ private:
     Denoiser m_denoiser;
 };
 
-Json denoiseReportJson(const vk::DeviceReport& device, const BenchOptions& options, const std::vector<DenoiseRow>& rows)
+Json denoiseReportJson(const vk::DeviceReport& device, const BenchDenoiseOptions& options,
+                       const std::vector<DenoiseRow>& rows)
 {
     Json json = headJson("zvo.bench_denoise/1", device);
     json["width"] = kDenoiseWidth;
@@ -153,7 +154,7 @@ Json denoiseReportJson(const vk::DeviceReport& device, const BenchOptions& optio
     return json;
 }
 
-std::string denoiseTable(const vk::DeviceReport& device, const BenchOptions& options,
+std::string denoiseTable(const vk::DeviceReport& device, const BenchDenoiseOptions& options,
                          const std::vector<DenoiseRow>& rows)
 {
     std::string text = fmt::format("zvo {} on {} ({}, {}). Pictures of {} x {} pixels beside one of {} samples with "
@@ -170,7 +171,7 @@ std::string denoiseTable(const vk::DeviceReport& device, const BenchOptions& opt
 
 } // namespace
 
-void benchDenoise(const BenchOptions& options)
+void benchDenoise(const BenchDenoiseOptions& options)
 {
     constexpr std::array<std::uint32_t, 4> kCounts = {1, 4, 16, 64};
     const std::vector<std::uint32_t> depths = {kDenoiseDepth};

@@ -6,8 +6,8 @@
 namespace zvo::cli
 {
 
-/// `zvo bench --denoise`: how close pictures of few samples come to one of very many, with and without denoising, and
+/// `zvo-bench denoise`: how close pictures of few samples come to one of very many, with and without denoising, and
 /// what they take. Throws Error.
-void benchDenoise(const BenchOptions& options);
+void benchDenoise(const BenchDenoiseOptions& options);
 
 } // namespace zvo::cli

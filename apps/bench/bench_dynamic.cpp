@@ -143,7 +143,7 @@ Json rowJson(const DynamicRow& row)
 class DynamicBench
 {
 public:
-    DynamicBench(const BenchOptions& options, vk::HeadlessDevice& device)
+    DynamicBench(const BenchDynamicOptions& options, vk::HeadlessDevice& device)
         : m_options(options), m_device(device), m_tracer(device.device())
     {
         m_tracer.resize(kWidth, kHeight);
@@ -284,7 +284,7 @@ private:
             m_device.run([&](vk::FrameGraph& graph) { m_tracer.tracePrimary(graph, tree, camera, TraceOptions{}); }));
     }
 
-    const BenchOptions& m_options;
+    const BenchDynamicOptions& m_options;
     vk::HeadlessDevice& m_device;
     TreeTracer m_tracer;
 };
@@ -298,7 +298,7 @@ std::string tableHead(const vk::DeviceReport& device, std::uint32_t run_count)
            columnNames(columns());
 }
 
-Json reportJson(const vk::DeviceReport& device, const BenchOptions& options, const std::vector<DynamicRow>& rows)
+Json reportJson(const vk::DeviceReport& device, const BenchDynamicOptions& options, const std::vector<DynamicRow>& rows)
 {
     Json json = headJson("zvo.bench_dynamic/1", device);
     json["width"] = kWidth;
@@ -317,7 +317,7 @@ Json reportJson(const vk::DeviceReport& device, const BenchOptions& options, con
 
 } // namespace
 
-void benchDynamic(const BenchOptions& options)
+void benchDynamic(const BenchDynamicOptions& options)
 {
     std::optional<Output> report = openReport(options.output);
     std::vector<AnimatedScene> scenes;

@@ -6,7 +6,7 @@
 namespace zvo::cli
 {
 
-/// `zvo bench --dynamic`: measures updates of dynamic objects, and full rebuilds to compare. Throws Error.
-void benchDynamic(const BenchOptions& options);
+/// `zvo-bench dynamic`: measures updates of dynamic objects, and full rebuilds to compare. Throws Error.
+void benchDynamic(const BenchDynamicOptions& options);
 
 } // namespace zvo::cli

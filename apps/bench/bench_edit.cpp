@@ -227,8 +227,8 @@ std::vector<HistoryRow> measureHistory(Canvas& canvas, Progress& progress)
     return rows;
 }
 
-EditRow measure(vk::HeadlessDevice& device, const BenchOptions& options, const std::string& name, const Scene& scene,
-                std::uint32_t depth, Progress& progress)
+EditRow measure(vk::HeadlessDevice& device, const BenchEditOptions& options, const std::string& name,
+                const Scene& scene, std::uint32_t depth, Progress& progress)
 {
     const Grid grid = Grid::around(scene.bounds(), depth);
     EditRow row;
@@ -251,7 +251,7 @@ EditRow measure(vk::HeadlessDevice& device, const BenchOptions& options, const s
     return row;
 }
 
-std::string tableHead(const vk::DeviceReport& device, const BenchOptions& options)
+std::string tableHead(const vk::DeviceReport& device, const BenchEditOptions& options)
 {
     return fmt::format(
         "zvo {} on {} ({}, {}). Strokes of a sphere on an {}: GPU milliseconds, median / 95 of 100, of {} "
@@ -282,7 +282,7 @@ std::string tables(const std::vector<EditRow>& rows)
     return text;
 }
 
-Json reportJson(const vk::DeviceReport& device, const BenchOptions& options, const std::vector<EditRow>& rows)
+Json reportJson(const vk::DeviceReport& device, const BenchEditOptions& options, const std::vector<EditRow>& rows)
 {
     Json json = headJson("zvo.bench_edit/1", device);
     json["coverage"] = coverageName(options.coverage);
@@ -299,7 +299,7 @@ Json reportJson(const vk::DeviceReport& device, const BenchOptions& options, con
 
 } // namespace
 
-void benchEdit(const BenchOptions& options)
+void benchEdit(const BenchEditOptions& options)
 {
     const std::vector<fs::path> paths = benchScenes(options);
     const std::vector<std::uint32_t> depths = options.depths.value_or(std::vector{kDepth});

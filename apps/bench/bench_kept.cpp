@@ -100,9 +100,9 @@ double totalOf(const std::vector<double>& values)
 class KeptBench
 {
 public:
-    KeptBench(vk::HeadlessDevice& device, const LitScene& scene, const BenchOptions& options)
-        : m_device(device), m_scene(scene), m_width(options.path_width), m_height(options.path_height),
-          m_kept({.faces = options.kept_faces}), m_camera(traceCamera(scene.view, scene.tree.grid, m_height))
+    KeptBench(vk::HeadlessDevice& device, const LitScene& scene, const BenchKeptOptions& options)
+        : m_device(device), m_scene(scene), m_width(options.width), m_height(options.height),
+          m_kept({.faces = options.faces}), m_camera(traceCamera(scene.view, scene.tree.grid, m_height))
     {
     }
 
@@ -293,14 +293,14 @@ private:
     TraceCamera m_camera;
 };
 
-Json keptReportJson(const vk::DeviceReport& device, const BenchOptions& options, const std::vector<KeptRow>& rows,
+Json keptReportJson(const vk::DeviceReport& device, const BenchKeptOptions& options, const std::vector<KeptRow>& rows,
                     std::span<const MotionResult> motion)
 {
     Json json = headJson("zvo.bench_kept/1", device);
-    json["width"] = options.path_width;
-    json["height"] = options.path_height;
+    json["width"] = options.width;
+    json["height"] = options.height;
     json["reference_samples"] = options.reference_samples;
-    json["faces_of_frame"] = options.kept_faces;
+    json["faces_of_frame"] = options.faces;
     json["picture_frames"] = kPictureFrames;
     json["rows"] = Json::array();
     for (const KeptRow& row : rows)
@@ -334,14 +334,14 @@ Json keptReportJson(const vk::DeviceReport& device, const BenchOptions& options,
     return json;
 }
 
-std::string keptTable(const vk::DeviceReport& device, const BenchOptions& options, const std::vector<KeptRow>& rows,
+std::string keptTable(const vk::DeviceReport& device, const BenchKeptOptions& options, const std::vector<KeptRow>& rows,
                       std::span<const MotionResult> motion)
 {
     std::string text =
         fmt::format("zvo {} on {} ({}, {}). Pictures of {} x {} pixels beside one of {} paths a pixel with another "
                     "seed. Light that is kept is sampled on {} faces a frame.\n\n",
-                    ZVO_VERSION_TEXT, device.name, device.type, device.driver, options.path_width, options.path_height,
-                    options.reference_samples, options.kept_faces);
+                    ZVO_VERSION_TEXT, device.name, device.type, device.driver, options.width, options.height,
+                    options.reference_samples, options.faces);
     if (!rows.empty())
     {
         text += fmt::format("A picture of it is {} frames behind those that are named; through cones, of the same "
@@ -361,14 +361,14 @@ std::string keptTable(const vk::DeviceReport& device, const BenchOptions& option
 
 } // namespace
 
-void benchKept(const BenchOptions& options)
+void benchKept(const BenchKeptOptions& options)
 {
     constexpr std::array<std::uint32_t, 3> kPathCounts = {1, 4, 16};
     constexpr std::array<std::uint32_t, 3> kFrameCounts = {16, 64, 256};
     const std::vector<std::uint32_t> depths = {kKeptDepth};
     std::optional<Output> report = openReport(options.output);
-    BenchOptions still = options;
-    still.scenes = benchScenes(options);
+    BenchKeptOptions still = options;
+    still.scenes = benchScenes(options, true);
     std::vector<std::filesystem::path> scene_files;
     std::ranges::copy_if(still.scenes, std::back_inserter(scene_files), isSceneFile);
     std::erase_if(still.scenes, isSceneFile);
@@ -392,8 +392,7 @@ void benchKept(const BenchOptions& options)
     };
     if (has_still)
     {
-        forEachLitScene(device, still, depths, static_cast<double>(options.path_width) / options.path_height,
-                        measureStill);
+        forEachLitScene(device, still, depths, static_cast<double>(options.width) / options.height, measureStill);
     }
     const std::vector<MotionResult> motion = measureMotion(device, options, moving, kKeptDepth, progress);
     clearProgressBar();

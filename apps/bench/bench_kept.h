@@ -6,8 +6,8 @@
 namespace zvo::cli
 {
 
-/// `zvo bench --kept`: how close pictures of light that is kept on voxels come to path tracing, and what they take,
+/// `zvo-bench kept`: how close pictures of light that is kept on voxels come to path tracing, and what they take,
 /// beside paths and primary rays. Throws Error.
-void benchKept(const BenchOptions& options);
+void benchKept(const BenchKeptOptions& options);
 
 } // namespace zvo::cli

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+// The options of zvo-bench: a struct for each command, built of those that several commands have.
 #pragma once
 
 #include "common/scene_options.h"
@@ -11,48 +12,113 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <variant>
 #include <vector>
-
-namespace CLI
-{
-class App;
-}
 
 namespace zvo::cli
 {
 
+/// What is measured, on which device, and where the report goes.
 struct BenchOptions
 {
     std::vector<std::filesystem::path> scenes;         // empty: the usual ones in scene_folder
     std::optional<std::filesystem::path> scene_folder; // not given: scenes
     LoadOptions load;
-    std::optional<std::vector<std::uint32_t>> depths; // not given: 8, 9, 10, with balance 9, 10, 11, with edit 9
-    std::uint32_t run_count = 5;
+    std::optional<std::vector<std::uint32_t>> depths; // not given: those that the command has
     Coverage coverage = TreeBuildInfo().coverage;
     bool attributes = true;
-    std::string camera; // as in RenderOptions
-    bool passes = false;
-    bool balance = false;                   // load balance on generated scenes, and on scenes if any were named
-    bool baselines = false;                 // the algorithms of zvo's sources beside zvo's
-    bool dynamic = false;                   // updates against rebuilds of scenes with dynamic objects
-    bool edit = false;                      // strokes of a brush
-    bool path = false;                      // path tracing
-    bool denoise = false;                   // pictures of few paths
-    bool kept = false;                      // light that is kept on voxels
-    bool tune = false;                      // what zvo chooses by device
-    std::uint32_t reference_samples = 1024; // a pixel of the picture that they are compared with; with denoise, kept
-    std::uint32_t kept_faces = RadianceOptions().faces; // that a frame of kept light samples at most
-    std::vector<std::filesystem::path> environments;    // maps; with path
-    std::uint32_t path_width = 640;                     // of the pictures whose rays path and tune measure, and of kept
-    std::uint32_t path_height = 360;
-    TreeStructure structure = TreeStructure::Svo; // of the static part; with dynamic or edit
-    std::vector<std::filesystem::path> reports;   // earlier runs' JSON, to be told; empty: measure
-    std::optional<std::filesystem::path> targets; // figures to compare them with; with reports
     DeviceOptions device;
     OutputOptions output; // path: unused
 };
 
-/// Adds the command `zvo bench` to app: parsing fills options.
-CLI::App* addBench(CLI::App& app, BenchOptions& options);
+/// Of commands that measure the same several times.
+struct RepeatedBenchOptions : BenchOptions
+{
+    std::uint32_t run_count = 5;
+};
+
+/// Of commands that can tell of each pass.
+struct PassBenchOptions : RepeatedBenchOptions
+{
+    bool passes = false;
+};
+
+/// Of commands that compare pictures with one of very many paths.
+struct LitBenchOptions : BenchOptions
+{
+    std::string camera;                     // as in RenderOptions
+    std::uint32_t reference_samples = 1024; // a pixel of that picture
+};
+
+/// Pixels of the pictures whose rays are measured.
+struct PictureSizeOptions
+{
+    std::uint32_t width = 640;
+    std::uint32_t height = 360;
+};
+
+struct BenchBuildOptions : PassBenchOptions
+{
+};
+
+struct BenchRaysOptions : PassBenchOptions
+{
+    std::string camera;
+};
+
+struct BenchDynamicOptions : PassBenchOptions
+{
+    std::string camera;
+    TreeStructure structure = TreeStructure::Svo; // of the static part
+};
+
+struct BenchEditOptions : RepeatedBenchOptions
+{
+    TreeStructure structure = TreeStructure::Svo;
+};
+
+struct BenchPathOptions : RepeatedBenchOptions, PictureSizeOptions
+{
+    std::string camera;
+    std::vector<std::filesystem::path> environments; // maps
+};
+
+struct BenchKeptOptions : LitBenchOptions, PictureSizeOptions
+{
+    std::uint32_t faces = RadianceOptions().faces; // that a frame samples at most
+    TreeStructure structure = TreeStructure::Svo;  // of the static part of scene files
+};
+
+struct BenchDenoiseOptions : LitBenchOptions
+{
+};
+
+struct BenchBaselinesOptions : RepeatedBenchOptions
+{
+    std::string camera;
+};
+
+struct BenchBalanceOptions : RepeatedBenchOptions
+{
+};
+
+struct BenchTuneOptions : RepeatedBenchOptions, PictureSizeOptions // scenes, depths: at most one
+{
+    std::string camera;
+};
+
+struct BenchReportOptions
+{
+    std::vector<std::filesystem::path> reports;   // earlier runs' JSON
+    std::optional<std::filesystem::path> targets; // figures to compare them with
+};
+
+/// The command line's request: the options of one command, or a text that is printed (help, version).
+using BenchCommand = std::variant<std::string, BenchBuildOptions, BenchRaysOptions, BenchDynamicOptions,
+                                  BenchEditOptions, BenchPathOptions, BenchKeptOptions, BenchDenoiseOptions,
+                                  BenchBaselinesOptions, BenchBalanceOptions, BenchTuneOptions, BenchReportOptions>;
+
+/// Reads the command line. Throws Error{Usage}, one line, for anything that is not understood.
+BenchCommand parseBenchCommandLine(int argc, const char* const* argv);
 
 } // namespace zvo::cli

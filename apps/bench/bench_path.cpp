@@ -127,7 +127,7 @@ const Columns<VarianceRow>& varianceColumns()
 class PathBench
 {
 public:
-    PathBench(vk::HeadlessDevice& device, const BenchOptions& options, const Scene& scene, std::string name,
+    PathBench(vk::HeadlessDevice& device, const BenchPathOptions& options, const Scene& scene, std::string name,
               std::uint32_t depth)
         : m_device(device), m_options(options), m_name(std::move(name)), m_grid(Grid::around(scene.bounds(), depth))
     {
@@ -135,7 +135,7 @@ public:
         const GpuScene gpu_scene = uploadScene(device, scene, options.attributes, emission_scale);
         m_tree = buildOctree(device, gpu_scene, m_grid, {options.coverage, options.attributes, {}}).octree;
         m_view = chooseCamera(options.camera, scene, subjectOf(scene.bounds(), m_grid),
-                              static_cast<double>(options.path_width) / options.path_height);
+                              static_cast<double>(options.width) / options.height);
     }
 
     SpeedRow measureSpeed()
@@ -146,11 +146,11 @@ public:
         row.voxels = m_tree.voxel_count;
         DeviceEnvironment sky(m_device.device());
         sky.setSun(daylight());
-        const TraceCamera camera = traceCamera(m_view, m_grid, m_options.path_height);
+        const TraceCamera camera = traceCamera(m_view, m_grid, m_options.height);
         PathTracer tracer(m_device.device());
         PathTracer in_one_kernel(m_device.device());
-        tracer.resize(m_options.path_width, m_options.path_height, PathForm::Stages);
-        in_one_kernel.resize(m_options.path_width, m_options.path_height, PathForm::OneKernel);
+        tracer.resize(m_options.width, m_options.height, PathForm::Stages);
+        in_one_kernel.resize(m_options.width, m_options.height, PathForm::OneKernel);
         const PathOptions options;
         vk::BufferOf<gpu::DispatchArgs> lists(m_device.device(), "bench/lists", tracer.listElements(options));
         const auto sampleBy = [&](PathTracer& form, vk::BufferOf<gpu::DispatchArgs>* lists_of_sample)
@@ -323,22 +323,22 @@ private:
 #endif
 
     vk::HeadlessDevice& m_device;
-    const BenchOptions& m_options;
+    const BenchPathOptions& m_options;
     std::string m_name;
     Grid m_grid;
     DeviceTree m_tree;
     ViewCamera m_view;
 };
 
-std::string pathTableHead(const vk::DeviceReport& device, const BenchOptions& options)
+std::string pathTableHead(const vk::DeviceReport& device, const BenchPathOptions& options)
 {
     return fmt::format(
         "zvo {} on {} ({}, {}). A sample is a path of {} bounces for each of {} x {} pixels; GPU milliseconds, medians "
         "of {} runs, in stages and in one kernel. A ray's time is that of trace/rays alone, without beam; beside it, "
         "the ratio to primary rays. Embree traces the same rays of bounces through the same voxels, one by one, on all "
         "processors.\n",
-        ZVO_VERSION_TEXT, device.name, device.type, device.driver, PathOptions().bounces, options.path_width,
-        options.path_height, options.run_count);
+        ZVO_VERSION_TEXT, device.name, device.type, device.driver, PathOptions().bounces, options.width, options.height,
+        options.run_count);
 }
 
 Json raysJson(const Rays& rays)
@@ -346,14 +346,14 @@ Json raysJson(const Rays& rays)
     return {{"count", rays.count}, {"ns_each", rays.nsEach()}, {"mrays_per_s", rays.mraysPerSecond()}};
 }
 
-Json pathReportJson(const vk::DeviceReport& device, const BenchOptions& options, const std::vector<SpeedRow>& speed,
+Json pathReportJson(const vk::DeviceReport& device, const BenchPathOptions& options, const std::vector<SpeedRow>& speed,
                     const std::vector<VarianceRow>& variances)
 {
     Json json = headJson("zvo.bench_path/1", device);
     json["coverage"] = coverageName(options.coverage);
     json["runs"] = options.run_count;
-    json["width"] = options.path_width;
-    json["height"] = options.path_height;
+    json["width"] = options.width;
+    json["height"] = options.height;
     json["rows"] = Json::array();
     for (const SpeedRow& row : speed)
     {
@@ -382,7 +382,7 @@ Json pathReportJson(const vk::DeviceReport& device, const BenchOptions& options,
 
 } // namespace
 
-void benchPath(const BenchOptions& options)
+void benchPath(const BenchPathOptions& options)
 {
     const std::vector<fs::path> paths = benchScenes(options);
     const std::vector<std::uint32_t> depths = options.depths.value_or(std::vector{kPathDepth});

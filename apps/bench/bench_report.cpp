@@ -248,7 +248,7 @@ std::string targetTable(const Json& targets, const std::vector<Json>& reports)
     catch (const Json::exception& error)
     {
         throw Error(ErrorCode::Input,
-                    fmt::format("targets or reports are not what zvo bench writes: {}", error.what()));
+                    fmt::format("targets or reports are not what zvo-bench writes: {}", error.what()));
     }
 }
 
@@ -272,11 +272,11 @@ std::string slowestPasses(const Json& row, std::size_t row_count)
     }
     catch (const Json::exception& error)
     {
-        throw Error(ErrorCode::Input, fmt::format("a report is not what zvo bench writes: {}", error.what()));
+        throw Error(ErrorCode::Input, fmt::format("a report is not what zvo-bench writes: {}", error.what()));
     }
 }
 
-void benchReport(const BenchOptions& options)
+void benchReport(const BenchReportOptions& options)
 {
     std::vector<Json> reports;
     for (const std::filesystem::path& path : options.reports)

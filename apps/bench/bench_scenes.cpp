@@ -107,7 +107,7 @@ void checkPresent(const std::vector<fs::path>& paths, bool allows_scene_files)
         if (isSceneFile(path) && !allows_scene_files)
         {
             throw Error(ErrorCode::Usage,
-                        fmt::format("{} is a scene file, which bench measures with --dynamic, --kept and --baselines",
+                        fmt::format("{} is a scene file, which the commands dynamic, kept and baselines measure",
                                     path.string()));
         }
         std::error_code ignored;
@@ -120,10 +120,10 @@ void checkPresent(const std::vector<fs::path>& paths, bool allows_scene_files)
 
 } // namespace
 
-std::vector<fs::path> benchScenes(const BenchOptions& options)
+std::vector<fs::path> benchScenes(const BenchOptions& options, bool allows_scene_files)
 {
     std::vector<fs::path> paths = scenesOf(options);
-    checkPresent(paths, options.baselines || options.kept);
+    checkPresent(paths, allows_scene_files);
     return paths;
 }
 

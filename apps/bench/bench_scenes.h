@@ -13,8 +13,8 @@ namespace zvo::cli
 {
 
 /// The files to measure: the named ones, or the usual ones. Throws Error{Input} if there are none, or one is missing;
-/// Error{Usage} for a scene file, unless baselines or kept light are measured.
-std::vector<std::filesystem::path> benchScenes(const BenchOptions& options);
+/// Error{Usage} for a scene file, unless the command allows them.
+std::vector<std::filesystem::path> benchScenes(const BenchOptions& options, bool allows_scene_files = false);
 
 /// Loads a scene file and what it names, beside it or in the folder of --scenes. Throws Error{Input}.
 AnimatedScene loadSceneFile(const BenchOptions& options, const std::filesystem::path& path);

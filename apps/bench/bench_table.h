@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: MIT
+// What `zvo-bench build` and `zvo-bench rays` tell of a scene at one resolution: a row of their tables and reports.
+// Each measures a part of it.
 #pragma once
 
+#include "bench/table.h"
 #include "common/report.h"
+#include "core/tree/device_tree.h"
 #include "vk/timer.h"
 #include "zvo/types.h"
 
@@ -29,20 +33,18 @@ std::string spreadText(const Spread& spread);
 
 Json spreadJson(const Spread& spread);
 
-constexpr std::uint32_t kTraceTurns = 3; // pictures for each run, as they take less time than the rest
-
-/// The numbers of a row about the DAG of its octree.
-struct DagNumbers
+/// The size of the DAG of a row's octree.
+struct DagSize
 {
     std::uint64_t nodes = 0;
     std::uint64_t geometry_bytes = 0; // of nodes and lists
     std::uint64_t rank_bytes = 0;     // additional bytes that attributes need
-    Spread compress_ms;
-    Spread trace_ms;
-    Spread trace_ratio; // DAG / octree, of pictures that were traced in turns
+
+    static DagSize of(const DeviceTree& dag);
 };
 
-/// The numbers of one scene at one resolution.
+/// The numbers of one scene at one resolution. Those of a DAG are absent where memory does not suffice for octree and
+/// DAG at once, and all that may be absent where the command does not measure them.
 struct BenchRow
 {
     std::string scene; // the file's name without its extension
@@ -54,14 +56,17 @@ struct BenchRow
     std::uint64_t nodes = 0;
     std::uint64_t geometry_bytes = 0;
     std::uint64_t attribute_bytes = 0;
-    std::uint64_t peak_device_bytes = 0; // until the octree was traced
-    Spread voxelize_ms;
-    Spread build_ms;
-    Spread trace_ms;               // of the octree
-    std::optional<DagNumbers> dag; // nothing if memory does not suffice for octree and DAG at once
-    double node_paths_ms = 0;      // once for each octree; not part of other times
-    std::uint64_t rays = 0;
-    std::uint64_t hits = 0;                               // rays that hit a voxel
+    std::uint64_t peak_device_bytes = 0; // until the octree was built, or traced
+    std::optional<DagSize> dag;
+    std::optional<Spread> voxelize_ms;
+    std::optional<Spread> build_ms;
+    std::optional<Spread> compress_ms;
+    std::optional<Spread> trace_ms; // of the octree
+    std::optional<Spread> trace_dag_ms;
+    std::optional<Spread> trace_dag_ratio; // DAG / octree, of pictures that were traced in turns
+    std::optional<double> node_paths_ms;   // once for each octree; not part of other times
+    std::optional<std::uint64_t> rays;
+    std::optional<std::uint64_t> hits;                    // rays that hit a voxel
     std::optional<double> embree_user_mrays_per_s;        // through the same voxels
     std::optional<std::uint64_t> embree_user_hits;        // of the same rays
     std::optional<double> embree_triangle_mrays_per_s;    // through the triangles
@@ -69,35 +74,40 @@ struct BenchRow
     std::optional<double> embree_triangle_single_mrays_per_s;
     std::vector<vk::PassTime> passes; // mean of the runs, summed by name
 
+    void setSizes(const DeviceTree& octree);
+
     [[nodiscard]] double perVoxel(std::uint64_t bytes) const;
-    [[nodiscard]] double mvoxelsPerSecond() const;
-    [[nodiscard]] double mraysPerSecond() const;
+    [[nodiscard]] std::optional<double> mvoxelsPerSecond() const;
+    [[nodiscard]] std::optional<double> mraysPerSecond() const;
 
     /// Bytes of geometry of the DAG, divided by those of the octree.
-    [[nodiscard]] double dagGeometryRatio(const DagNumbers& numbers) const;
+    [[nodiscard]] std::optional<double> dagGeometryRatio() const;
     /// Time of compression, divided by that of voxelization and octree construction.
-    [[nodiscard]] double compressRatio(const DagNumbers& numbers) const;
+    [[nodiscard]] std::optional<double> compressRatio() const;
 };
 
 /// What all rows have in common.
 struct BenchHeader
 {
     vk::DeviceReport device;
-    std::uint32_t width = 0; // of the traced pictures
-    std::uint32_t height = 0;
+    std::optional<std::uint32_t> width; // of the traced pictures
+    std::optional<std::uint32_t> height;
     std::uint32_t run_count = 0;
 };
 
-/// The head of the table, in Markdown: a sentence on the conditions, and the columns' names.
-std::string tableHead(const BenchHeader& header);
+/// What the tables of both commands begin with: the scene, and what its octree has.
+Columns<BenchRow> octreeColumns();
 
-/// One line of the table.
-std::string tableLine(const BenchRow& row);
+/// The last column of both tables.
+Column<BenchRow> peakColumn();
 
 /// A table of the passes' times.
 std::string passTable(const std::string& scene, std::uint32_t resolution, const std::vector<vk::PassTime>& passes);
 
-/// The report of `zvo bench`; the names of the fields are an interface.
+/// Marks passes as those of compression and the DAG's pictures, apart from those of the octree.
+std::vector<vk::PassTime> ofDag(std::vector<vk::PassTime> passes);
+
+/// The report of both commands; the names of the fields are an interface. What is absent is null.
 Json benchJson(const BenchHeader& header, const std::vector<BenchRow>& rows);
 
 } // namespace zvo::cli

@@ -13,6 +13,8 @@
 namespace zvo::cli
 {
 
+constexpr std::uint32_t kTraceTurns = 3; // pictures for each run, as they take less time than the rest
+
 /// Traces pictures of one tree. Device, tree and tracer must outlive this object.
 class PrimaryRays
 {

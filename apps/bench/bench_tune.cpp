@@ -71,17 +71,17 @@ const Columns<TuneRow>& tuneColumns()
 class TunedDevice
 {
 public:
-    TunedDevice(const BenchOptions& options, const Scene& scene, vk::TuningValues tuning)
+    TunedDevice(const BenchTuneOptions& options, const Scene& scene, vk::TuningValues tuning)
         : m_options(options), m_device(deviceOptions(options, std::move(tuning)), zvoKernels()),
           m_scene(uploadScene(m_device, scene, options.attributes, brightestEmission(scene))),
           m_grid(Grid::around(scene.bounds(), options.depths.value_or(std::vector{kTuneDepth}).front())),
           m_view(chooseCamera(options.camera, scene, subjectOf(scene.bounds(), m_grid),
-                              static_cast<double>(options.path_width) / options.path_height)),
+                              static_cast<double>(options.width) / options.height)),
           m_sky(m_device.device()), m_tracer(m_device.device()), m_paths(m_device.device())
     {
         m_sky.setSun(daylight());
-        m_tracer.resize(options.path_width, options.path_height);
-        m_paths.resize(options.path_width, options.path_height);
+        m_tracer.resize(options.width, options.height);
+        m_paths.resize(options.width, options.height);
     }
 
     [[nodiscard]] vk::HeadlessDevice& device() { return m_device; }
@@ -113,7 +113,7 @@ public:
     }
 
 private:
-    static vk::HeadlessOptions deviceOptions(const BenchOptions& options, vk::TuningValues tuning)
+    static vk::HeadlessOptions deviceOptions(const BenchTuneOptions& options, vk::TuningValues tuning)
     {
         vk::HeadlessOptions headless = headlessOptions(options.device);
         headless.tuning = std::move(tuning);
@@ -152,19 +152,19 @@ private:
     std::vector<vk::PassTime> picture()
     {
         buildOnce();
-        const TraceCamera camera = traceCamera(m_view, m_grid, m_options.path_height);
+        const TraceCamera camera = traceCamera(m_view, m_grid, m_options.height);
         return m_device.run([&](vk::FrameGraph& graph) { m_tracer.trace(graph, m_built.octree, camera, {}); });
     }
 
     std::vector<vk::PassTime> paths()
     {
         buildOnce();
-        const TraceCamera camera = traceCamera(m_view, m_grid, m_options.path_height);
+        const TraceCamera camera = traceCamera(m_view, m_grid, m_options.height);
         return m_device.run([&](vk::FrameGraph& graph)
                             { m_paths.addSample(graph, m_built.octree, m_sky, camera, PathOptions()); });
     }
 
-    const BenchOptions& m_options;
+    const BenchTuneOptions& m_options;
     vk::HeadlessDevice m_device;
     GpuScene m_scene;
     Grid m_grid;
@@ -205,7 +205,7 @@ bool canHave(const vk::Device& device, Tunable tunable, std::uint32_t value)
 }
 
 /// Measures the values of one choice in turns, each on a device of its own.
-std::vector<TuneRow> measureChoice(const BenchOptions& options, const Scene& scene, const vk::Device& device,
+std::vector<TuneRow> measureChoice(const BenchTuneOptions& options, const Scene& scene, const vk::Device& device,
                                    const TuningRow& choice)
 {
     std::uint32_t tables = tunedValue(device, choice.tunable);
@@ -263,7 +263,7 @@ vk::TuningValues adviceOf(const std::vector<TuneRow>& rows)
     return advice;
 }
 
-std::string tuneText(const vk::DeviceReport& device, const BenchOptions& options, const std::string& scene,
+std::string tuneText(const vk::DeviceReport& device, const BenchTuneOptions& options, const std::string& scene,
                      std::uint32_t resolution, const std::vector<TuneRow>& rows)
 {
     std::string text = fmt::format(
@@ -271,8 +271,8 @@ std::string tuneText(const vk::DeviceReport& device, const BenchOptions& options
         "medians of {} runs; ratios to zvo's choice, in turns. Faster is what was faster in every run. Choices are "
         "measured one at a "
         "time: measure again with both of two that touch the same passes.\n\n{}",
-        ZVO_VERSION_TEXT, device.name, device.type, device.driver, scene, resolution, options.path_width,
-        options.path_height, options.run_count, columnNames(tuneColumns()));
+        ZVO_VERSION_TEXT, device.name, device.type, device.driver, scene, resolution, options.width, options.height,
+        options.run_count, columnNames(tuneColumns()));
     for (const TuneRow& row : rows)
     {
         text += columnValues(tuneColumns(), row);
@@ -283,15 +283,15 @@ std::string tuneText(const vk::DeviceReport& device, const BenchOptions& options
     return text;
 }
 
-Json tuneJson(const vk::DeviceReport& device, const BenchOptions& options, const std::string& scene,
+Json tuneJson(const vk::DeviceReport& device, const BenchTuneOptions& options, const std::string& scene,
               std::uint32_t resolution, const std::vector<TuneRow>& rows)
 {
     Json json = headJson("zvo.bench_tune/1", device);
     json["scene"] = scene;
     json["resolution"] = resolution;
     json["runs"] = options.run_count;
-    json["width"] = options.path_width;
-    json["height"] = options.path_height;
+    json["width"] = options.width;
+    json["height"] = options.height;
     json["rows"] = Json::array();
     for (const TuneRow& row : rows)
     {
@@ -308,12 +308,8 @@ Json tuneJson(const vk::DeviceReport& device, const BenchOptions& options, const
 
 } // namespace
 
-void benchTune(const BenchOptions& options)
+void benchTune(const BenchTuneOptions& options)
 {
-    if (options.scenes.size() > 1 || (options.depths && options.depths->size() > 1))
-    {
-        throw Error(ErrorCode::Usage, "bench --tune takes one scene at one resolution");
-    }
     const std::filesystem::path path = benchScenes(options).back();
     const Scene scene = loadWithWarnings(std::span(&path, 1), options.load);
     std::optional<Output> report = openReport(options.output);

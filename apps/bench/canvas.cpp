@@ -46,7 +46,7 @@ double sumIf(const std::vector<vk::PassTime>& passes, bool (*counts)(const std::
 
 } // namespace
 
-Canvas::Canvas(vk::HeadlessDevice& device, const BenchOptions& options, const Scene& scene, const Grid& grid,
+Canvas::Canvas(vk::HeadlessDevice& device, const BenchEditOptions& options, const Scene& scene, const Grid& grid,
                const EditBounds& bounds)
     : m_device(device)
 {

@@ -19,7 +19,7 @@ class Canvas
 {
 public:
     /// Builds the tree. Throws Error{Input} if it has no voxels.
-    Canvas(vk::HeadlessDevice& device, const BenchOptions& options, const Scene& scene, const Grid& grid,
+    Canvas(vk::HeadlessDevice& device, const BenchEditOptions& options, const Scene& scene, const Grid& grid,
            const EditBounds& bounds);
 
     /// A stroke of one dab at a random voxel of the scene.

@@ -121,7 +121,7 @@ class MotionBench
 {
 public:
     MotionBench(vk::HeadlessDevice& device, LiveScene& live, DeviceEnvironment& light, const TraceCamera& camera,
-                const BenchOptions& options)
+                const BenchKeptOptions& options)
         : m_device(device), m_live(live), m_light(light), m_camera(camera), m_options(options),
           m_stand(standingFrame(live.animated()))
     {
@@ -139,7 +139,7 @@ public:
                                          [&](double done) { progress.within(0.2 + 0.6 * done); });
         const auto stand = [](std::uint32_t) {};
         RadianceTracer standing = tracerOf();
-        result.flicker_still = meanWhere(calm, keepLight(standing, {.faces = m_options.kept_faces}, stand));
+        result.flicker_still = meanWhere(calm, keepLight(standing, {.faces = m_options.faces}, stand));
         const HdrImage still = pictureOf(standing);
         const auto errorOf = [&, &near = near](const HdrImage& picture, std::uint32_t frames)
         {
@@ -148,7 +148,7 @@ public:
                                meanWhere(near, relativeErrors(still, picture))};
         };
         result.still = errorOf(still, kLightFrames);
-        const RadianceOptions other = {.faces = m_options.kept_faces,
+        const RadianceOptions other = {.faces = m_options.faces,
                                        .seed = 1}; // noise that has nothing to do with that of the still picture
         RadianceTracer beside = tracerOf();
         keepLight(beside, other, stand);
@@ -183,7 +183,7 @@ private:
     RadianceTracer tracerOf()
     {
         RadianceTracer tracer(m_device.device());
-        tracer.resize(m_options.path_width, m_options.path_height);
+        tracer.resize(m_options.width, m_options.height);
         return tracer;
     }
 
@@ -213,7 +213,7 @@ private:
     template <typename Told> HdrImage trace(std::uint32_t samples, const PathOptions& options, const Told& told)
     {
         PathTracer tracer(m_device.device());
-        tracer.resize(m_options.path_width, m_options.path_height);
+        tracer.resize(m_options.width, m_options.height);
         for (std::uint32_t i = 0; i < samples; ++i)
         {
             m_device.run([&](vk::FrameGraph& graph)
@@ -268,13 +268,13 @@ private:
     LiveScene& m_live;
     DeviceEnvironment& m_light;
     TraceCamera m_camera;
-    const BenchOptions& m_options;
+    const BenchKeptOptions& m_options;
     std::uint64_t m_stand; // the frame of the scene's time in which what moves stands
 };
 
 } // namespace
 
-std::vector<MovingScene> loadMovingScenes(const BenchOptions& options, std::span<const std::filesystem::path> paths)
+std::vector<MovingScene> loadMovingScenes(const BenchKeptOptions& options, std::span<const std::filesystem::path> paths)
 {
     std::vector<MovingScene> scenes;
     for (const std::filesystem::path& path : paths)
@@ -288,12 +288,12 @@ std::vector<MovingScene> loadMovingScenes(const BenchOptions& options, std::span
     return scenes;
 }
 
-std::size_t motionCount(const BenchOptions& options, std::span<const MovingScene> scenes)
+std::size_t motionCount(const BenchKeptOptions& options, std::span<const MovingScene> scenes)
 {
     return 2 * scenes.size() * (options.depths ? options.depths->size() : 1);
 }
 
-std::vector<MotionResult> measureMotion(vk::HeadlessDevice& device, const BenchOptions& options,
+std::vector<MotionResult> measureMotion(vk::HeadlessDevice& device, const BenchKeptOptions& options,
                                         std::span<const MovingScene> scenes, std::uint32_t depth, Progress& progress)
 {
     std::vector<MotionResult> results;
@@ -304,7 +304,7 @@ std::vector<MotionResult> measureMotion(vk::HeadlessDevice& device, const BenchO
         {
             const Grid grid = gridOf(animated, bounds, scene_depth);
             const ViewCamera view = chooseCamera(options.camera, animated, subjectOf(bounds, grid),
-                                                 static_cast<double>(options.path_width) / options.path_height);
+                                                 static_cast<double>(options.width) / options.height);
             LiveScene live(device, AnimatedScene(animated), grid,
                            {options.coverage, options.attributes, options.structure});
             for (const bool by_day : {true, false})
@@ -316,7 +316,7 @@ std::vector<MotionResult> measureMotion(vk::HeadlessDevice& device, const BenchO
                 const char* const light_name = by_day ? "day" : "night";
                 progress.begin(fmt::format("{} by {}", name, light_name));
                 DeviceEnvironment light = lightFor(device, name, by_day);
-                MotionBench bench(device, live, light, traceCamera(view, grid, options.path_height), options);
+                MotionBench bench(device, live, light, traceCamera(view, grid, options.height), options);
                 results.push_back(bench.measure(progress));
                 results.back().scene = name;
                 results.back().light = light_name;

@@ -56,14 +56,15 @@ struct MotionResult
 };
 
 /// Loads scene files. Throws Error{Input}, also where nothing moves.
-std::vector<MovingScene> loadMovingScenes(const BenchOptions& options, std::span<const std::filesystem::path> paths);
+std::vector<MovingScene> loadMovingScenes(const BenchKeptOptions& options,
+                                          std::span<const std::filesystem::path> paths);
 
 /// How many results measureMotion() gives, at most.
-std::size_t motionCount(const BenchOptions& options, std::span<const MovingScene> scenes);
+std::size_t motionCount(const BenchKeptOptions& options, std::span<const MovingScene> scenes);
 
 /// Measures scenes by day, and at night if they have voxels that give off light. depth: where options have none. Throws
 /// Error.
-std::vector<MotionResult> measureMotion(vk::HeadlessDevice& device, const BenchOptions& options,
+std::vector<MotionResult> measureMotion(vk::HeadlessDevice& device, const BenchKeptOptions& options,
                                         std::span<const MovingScene> scenes, std::uint32_t depth, Progress& progress);
 
 /// What the results are, and tables of them.

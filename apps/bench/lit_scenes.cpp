@@ -48,13 +48,14 @@ DeviceEnvironment lightFor(vk::HeadlessDevice& device, std::string_view scene, b
     return light;
 }
 
-std::size_t litSceneCount(const BenchOptions& options, const std::vector<std::uint32_t>& depths)
+std::size_t litSceneCount(const LitBenchOptions& options, const std::vector<std::uint32_t>& depths)
 {
     return 2 * benchScenes(options).size() * options.depths.value_or(depths).size();
 }
 
-void forEachLitScene(vk::HeadlessDevice& device, const BenchOptions& options, const std::vector<std::uint32_t>& depths,
-                     double aspect, const std::function<void(LitScene&)>& visit)
+void forEachLitScene(vk::HeadlessDevice& device, const LitBenchOptions& options,
+                     const std::vector<std::uint32_t>& depths, double aspect,
+                     const std::function<void(LitScene&)>& visit)
 {
     for (const std::filesystem::path& path : benchScenes(options))
     {

@@ -32,10 +32,11 @@ DeviceEnvironment lightFor(vk::HeadlessDevice& device, std::string_view scene, b
 /// Builds the scenes of a benchmark at each depth, and calls visit for each of them by day,
 /// and at night, if it has voxels that give off light. Where options name no camera, Sponza is seen from inside.
 /// depths: where options have none. Throws Error.
-void forEachLitScene(vk::HeadlessDevice& device, const BenchOptions& options, const std::vector<std::uint32_t>& depths,
-                     double aspect, const std::function<void(LitScene&)>& visit);
+void forEachLitScene(vk::HeadlessDevice& device, const LitBenchOptions& options,
+                     const std::vector<std::uint32_t>& depths, double aspect,
+                     const std::function<void(LitScene&)>& visit);
 
 /// How often that calls visit, at most.
-std::size_t litSceneCount(const BenchOptions& options, const std::vector<std::uint32_t>& depths);
+std::size_t litSceneCount(const LitBenchOptions& options, const std::vector<std::uint32_t>& depths);
 
 } // namespace zvo::cli

@@ -74,7 +74,7 @@ void addDeviceOptions(CLI::App& app, DeviceOptions& options)
         ->group("Device");
     addValue(
         app, "--tuning", options.tuning, parseTuning, "NAME=VALUE,...",
-        "forms and sizes of kernels in place of those that zvo chooses, as zvo bench --tune prints them; results stay")
+        "forms and sizes of kernels in place of those that zvo chooses, as zvo-bench tune prints them; results stay")
         ->group("Device");
     app.add_flag("--validation", options.validation,
                  "run with the Vulkan validation layers (core, synchronization); fail if they speak")
@@ -113,6 +113,11 @@ void addLoadOptions(CLI::App& app, LoadOptions& options)
              "which axis points up in the files: x, y, z, -x, -y or -z; it becomes y (default y)");
     addValue(app, "--scale", options.scale, parsePositive, "FACTOR",
              "multiplies the files' coordinates, after --up (default 1)");
+    addMaterialOptions(app, options);
+}
+
+void addMaterialOptions(CLI::App& app, LoadOptions& options)
+{
     app.add_option(
            "--skip-material", options.skip_materials,
            "leaves out what has a material with a name like this, such as 'Outline*'; may be given several times")

@@ -38,6 +38,8 @@ void addAttributesOption(CLI::App& app, bool& attributes);
 void addAttributesOption(CLI::App& app, AttributeFormat& attributes); // Bytes8 or None
 void addStructureOption(CLI::App& app, TreeStructure& structure);
 void addLoadOptions(CLI::App& app, LoadOptions& options);
+void addMaterialOptions(CLI::App& app,
+                        LoadOptions& options); // those of addLoadOptions() that hold for scene files, too
 
 /// The options of what is voxelized and how, except attributes. also: what else SCENE may be.
 void addVoxelOptions(CLI::App& app, VoxelOptions& options, const std::string& also = "");

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 // zvo: the command line program. Data goes to standard output, messages to standard error.
-#include "bench/bench.h"
 #include "build.h"
 #include "common/output.h"
 #include "common/run_program.h"
@@ -31,7 +30,6 @@ struct Run
     void operator()(const ValidateOptions& options) const { validate(options); }
     void operator()(const ConvertOptions& options) const { convert(options); }
     void operator()(const InfoOptions& options) const { info(options); }
-    void operator()(const BenchOptions& options) const { bench(options); }
 };
 
 } // namespace

@@ -1,20 +1,18 @@
 // SPDX-License-Identifier: MIT
 #include "options.h"
 
+#include "common/command_line.h"
 #include "common/option_groups.h"
 #include "common/parse.h"
 #include "common/view.h"
 #include "zvo/error.h"
-#include "zvo/version.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <optional>
 #include <string>
 #include <tuple>
-#include <utility>
+#include <variant>
 #include <vector>
 
 namespace zvo::cli
@@ -23,15 +21,12 @@ namespace zvo::cli
 namespace
 {
 
-constexpr std::size_t kHelpColumn = 34;
-
 constexpr const char* kMainFooter = R"(
 Examples:
   zvo render scenes/atrium.glb -o atrium.png
   zvo voxelize bunny.glb --resolution 256 -o bunny.ply
   zvo build bunny.glb --resolution 2048 -o bunny.zvo
   zvo info
-  zvo bench --scenes ../models --resolutions 256,512
 
 'zvo COMMAND --help' tells the options of a command.
 Exit codes: 0 success, 2 usage, 3 input, 4 output, 5 no usable device, 6 memory, 1 anything else.)";
@@ -74,6 +69,9 @@ take, with nodes of 2x2x2 cells: an octree with 36 bytes a node, and a DAG with 
 Examples:
   zvo inspect bunny.zvo
   zvo inspect bunny.zvo --json | jq .geometry_bytes_per_voxel)";
+
+constexpr const char* kValidateFooter =
+    "\nThe exit code is 0 for a sound file, and 3, with the first fault, for any other.";
 
 constexpr const char* kConvertFooter = R"(
 .zvo files hold trees with attributes (docs/file-format.md); .vox files are those of MagicaVoxel, with 255 colours;
@@ -143,188 +141,112 @@ void addPathOptions(CLI::App& render, RenderOptions& options)
              "begin no more paths after this time; the picture shows those that were traced");
 }
 
-CLI::App* addRender(CLI::App& app, RenderOptions& options)
+void addOptions(CLI::App& render, RenderOptions& options)
 {
-    CLI::App* render = app.add_subcommand("render", "voxelize scenes, or load a tree, and ray trace a picture");
-    addVoxelOptions(*render, options.voxels, "; or one .zvo file, which needs no voxelizing");
-    addAttributesOption(*render, options.voxels.attributes);
+    addVoxelOptions(render, options.voxels, "; or one .zvo file, which needs no voxelizing");
+    addAttributesOption(render, options.voxels.attributes);
     render
-        ->add_option_function<std::string>(
+        .add_option_function<std::string>(
             "--size",
             [&options](const std::string& text)
             { std::tie(options.width, options.height) = parseSize("--size", text); },
             "pixels of the picture (default 1280x720)")
         ->type_name("WxH");
-    addCameraOption(*render, options.camera);
+    addCameraOption(render, options.camera);
     addValue(
-        *render, "--camera-path", options.camera_path,
+        render, "--camera-path", options.camera_path,
         [](std::string_view, const std::string& text) { return std::filesystem::path(text); }, "FILE",
         "a camera that flies along the keys in a JSON file; of --frames, frame N at N / frames_per_second seconds, or "
         "at --time")
         ->excludes("--camera");
-    addValue(*render, "--view", options.view, viewOf, "VIEW", viewHelp());
+    addValue(render, "--view", options.view, viewOf, "VIEW", viewHelp());
     addValue(
-        *render, "--occlusion", options.occlusion_rays,
+        render, "--occlusion", options.occlusion_rays,
         [](std::string_view option, std::string_view text)
         { return static_cast<std::uint32_t>(parseInteger(option, text, 0, kOcclusionRaysMax)); },
         "RAYS",
         fmt::format("rays a pixel that find how much of the sky it sees, 0 to {} (default 0)", kOcclusionRaysMax));
-    addValue(*render, "--sun", options.to_sun, parseDirection, "x,y,z",
-             "direction to the sun (default -0.6,0.75,0.45)");
-    addPathOptions(*render, options);
-    addValue(*render, "--exposure", options.exposure, parsePositive, "FACTOR",
+    addValue(render, "--sun", options.to_sun, parseDirection, "x,y,z", "direction to the sun (default -0.6,0.75,0.45)");
+    addPathOptions(render, options);
+    addValue(render, "--exposure", options.exposure, parsePositive, "FACTOR",
              "brightness of the picture (default 1; for paths, so that it is neither dark nor bright)");
-    addValue(*render, "--detail", options.detail_pixels, parsePositive, "PIXELS",
+    addValue(render, "--detail", options.detail_pixels, parsePositive, "PIXELS",
              "rays stop at octree nodes up to this many pixels wide (default: they go on to voxels)");
-    addValue(*render, "--frames", options.frames, parseFrames, "A..B",
+    addValue(render, "--frames", options.frames, parseFrames, "A..B",
              "pictures of a scene in which something moves, frame N at N / frames_per_second seconds; of any other "
              "scene, a camera that turns once around it; #### in the output's name becomes the frame's number")
         ->excludes("--time");
     addValue(
-        *render, "--structure", options.structure, parseStructure, "svo|svdag",
+        render, "--structure", options.structure, parseStructure, "svo|svdag",
         "trace an octree, or a DAG, which has equal subtrees once; what moves is merged with either (default svo)");
-    render->add_flag("--rebuild", options.rebuild,
-                     "voxelize everything anew for each picture of a scene in which something moves, instead of "
-                     "merging what moves with what stands still");
-    addOutputOptions(*render, options.output,
+    render.add_flag("--rebuild", options.rebuild,
+                    "voxelize everything anew for each picture of a scene in which something moves, instead of "
+                    "merging what moves with what stands still");
+    addOutputOptions(render, options.output,
                      "the picture, a .png file, or of paths an .exr or .hdr file; - is standard output, of a .png");
-    addDeviceOptions(*render, options.device);
-    render->footer(kRenderFooter);
-    return render;
+    addDeviceOptions(render, options.device);
 }
 
-CLI::App* addVoxelize(CLI::App& app, VoxelizeOptions& options)
+void addOptions(CLI::App& voxelize, VoxelizeOptions& options)
 {
-    CLI::App* voxelize = app.add_subcommand("voxelize", "voxelize scenes and write the voxels");
-    addVoxelOptions(*voxelize, options.voxels);
-    addAttributesOption(*voxelize, options.voxels.attributes);
-    addOutputOptions(*voxelize, options.output, "the voxels, a .morton or .ply file; - is standard output");
+    addVoxelOptions(voxelize, options.voxels);
+    addAttributesOption(voxelize, options.voxels.attributes);
+    addOutputOptions(voxelize, options.output, "the voxels, a .morton or .ply file; - is standard output");
     addValue(
-        *voxelize, "--format", options.format,
+        voxelize, "--format", options.format,
         [](std::string_view option, std::string_view text) {
             return oneOf(option, text, {"morton", "ply"});
         },
         "morton|ply", "what to write (default: as the output's extension says)")
         ->group("Output");
-    addDeviceOptions(*voxelize, options.device);
-    voxelize->footer(kVoxelizeFooter);
-    return voxelize;
+    addDeviceOptions(voxelize, options.device);
 }
 
-CLI::App* addBuild(CLI::App& app, BuildFileOptions& options)
+void addOptions(CLI::App& build, BuildFileOptions& options)
 {
-    CLI::App* build = app.add_subcommand("build", "voxelize scenes and write the tree to a .zvo file");
-    addVoxelOptions(*build, options.voxels);
-    addStructureOption(*build, options.structure);
-    addValue(*build, "--attributes", options.voxels.attributes, parseAttributeFormat, "none|4|8|block",
+    addVoxelOptions(build, options.voxels);
+    addStructureOption(build, options.structure);
+    addValue(build, "--attributes", options.voxels.attributes, parseAttributeFormat, "none|4|8|block",
              "colour, normal and emission of the voxels: colour and normal in 4 or 8 bytes or in blocks of 16, "
              "which take 24; or only their places (default 8)");
-    addOutputOptions(*build, options.output, "the tree, a .zvo file; - is standard output");
-    addDeviceOptions(*build, options.device);
-    build->footer(kBuildFooter);
-    return build;
+    addOutputOptions(build, options.output, "the tree, a .zvo file; - is standard output");
+    addDeviceOptions(build, options.device);
 }
 
-CLI::App* addInspect(CLI::App& app, InspectOptions& options)
+void addOptions(CLI::App& inspect, InspectOptions& options)
 {
-    CLI::App* inspect = app.add_subcommand("inspect", "tell what is in a .zvo file");
-    inspect->add_option("FILE", options.file, "a .zvo file")->required()->type_name("FILE");
-    inspect->add_flag("--json", options.json, "as JSON");
-    inspect->footer(kInspectFooter);
-    return inspect;
+    inspect.add_option("FILE", options.file, "a .zvo file")->required()->type_name("FILE");
+    inspect.add_flag("--json", options.json, "as JSON");
 }
 
-CLI::App* addValidate(CLI::App& app, ValidateOptions& options)
+void addOptions(CLI::App& validate, ValidateOptions& options)
 {
-    CLI::App* validate = app.add_subcommand("validate", "check everything in a .zvo file");
-    validate->add_option("FILE", options.file, "a .zvo file")->required()->type_name("FILE");
-    validate->footer("\nThe exit code is 0 for a sound file, and 3, with the first fault, for any other.");
-    return validate;
+    validate.add_option("FILE", options.file, "a .zvo file")->required()->type_name("FILE");
 }
 
-CLI::App* addConvert(CLI::App& app, ConvertOptions& options)
+void addOptions(CLI::App& convert, ConvertOptions& options)
 {
-    CLI::App* convert = app.add_subcommand("convert", "make another kind of file of a .zvo or .vox file");
-    convert->add_option("FILE", options.file, "a .zvo or .vox file")->required()->type_name("FILE");
-    addStructureOption(*convert, options.structure);
-    addText(*convert, "-o,--output", options.output.path, "FILE",
+    convert.add_option("FILE", options.file, "a .zvo or .vox file")->required()->type_name("FILE");
+    addStructureOption(convert, options.structure);
+    addText(convert, "-o,--output", options.output.path, "FILE",
             "a .ply, .vox, .morton, .glb, .nvdb or .zvo file; - is standard output")
         ->required()
         ->group("Output");
-    convert->add_flag("-f,--force", options.output.overwrite, "overwrite a file that exists")->group("Output");
+    convert.add_flag("-f,--force", options.output.overwrite, "overwrite a file that exists")->group("Output");
     addValue(
-        *convert, "--format", options.format,
+        convert, "--format", options.format,
         [](std::string_view option, std::string_view text) {
             return oneOf(option, text, {"ply", "vox", "morton", "glb", "nvdb", "zvo"});
         },
         "FORMAT", "what to write: ply, vox, morton, glb, nvdb or zvo (default: as the output's extension says)")
         ->group("Output");
-    addDeviceOptions(*convert, options.device);
-    convert->footer(kConvertFooter);
-    return convert;
+    addDeviceOptions(convert, options.device);
 }
 
-CLI::App* addInfo(CLI::App& app, InfoOptions& options)
+void addOptions(CLI::App& info, InfoOptions& options)
 {
-    CLI::App* info = app.add_subcommand("info", "list the Vulkan devices and what they offer");
-    info->add_flag("--json", options.json, "as JSON");
-    addText(*info, "--device", options.device, "NAME", "which device would be used for this choice");
-    info->footer(kInfoFooter);
-    return info;
-}
-
-// Names the arguments that no option has taken.
-std::string strangerText(const CLI::App& app)
-{
-    const std::vector<std::string> strangers = app.remaining(true);
-    const char* const what = app.get_subcommands().empty() ? "there is no command or option" : "not understood:";
-    return fmt::format("{} {}", what, fmt::join(strangers, " "));
-}
-
-Error usageError(const CLI::App& app, std::string what)
-{
-    const CLI::App* command = app.get_subcommands().empty() ? &app : app.get_subcommands().front();
-    const std::string name = command == &app ? "zvo" : "zvo " + command->get_name();
-    while (!what.empty() && (what.back() == '\n' || what.back() == '.'))
-    {
-        what.pop_back();
-    }
-    return {ErrorCode::Usage, fmt::format("{}; see {} --help", what, name)};
-}
-
-// Reads the arguments. Returns the text that --help or --version asks for, or nothing.
-std::optional<std::string> parse(CLI::App& app, int argc, const char* const* argv)
-{
-    try
-    {
-        app.parse(argc, argv);
-    }
-    catch (const CLI::CallForHelp&)
-    {
-        return app.help();
-    }
-    catch (const CLI::CallForVersion& version)
-    {
-        return std::string(version.what()) + "\n";
-    }
-    catch (const CLI::ExtrasError&)
-    {
-        throw usageError(app, strangerText(app));
-    }
-    catch (const CLI::ParseError& error)
-    {
-        throw usageError(app, error.what());
-    }
-    catch (const Error& error)
-    {
-        throw usageError(app, error.what());
-    }
-    if (app.get_subcommands().empty())
-    {
-        throw usageError(app,
-                         "a command is missing: render, voxelize, build, inspect, validate, convert, info or bench");
-    }
-    return std::nullopt;
+    info.add_flag("--json", options.json, "as JSON");
+    addText(info, "--device", options.device, "NAME", "which device would be used for this choice");
 }
 
 } // namespace
@@ -332,49 +254,30 @@ std::optional<std::string> parse(CLI::App& app, int argc, const char* const* arg
 Command parseCommandLine(int argc, const char* const* argv)
 {
     CLI::App app("zvo turns triangle scenes into sparse voxel octrees on the GPU and ray traces them.", "zvo");
-    app.get_formatter()->column_width(kHelpColumn);
-    app.footer(kMainFooter);
-    app.set_version_flag("--version", "zvo " ZVO_VERSION_TEXT, "print the version");
-    RenderOptions render;
-    VoxelizeOptions voxelize;
-    BuildFileOptions build;
-    InspectOptions inspect;
-    ValidateOptions validate;
-    ConvertOptions convert;
-    InfoOptions info;
-    BenchOptions bench;
-    const CLI::App* const render_app = addRender(app, render);
-    const CLI::App* const voxelize_app = addVoxelize(app, voxelize);
-    const CLI::App* const build_app = addBuild(app, build);
-    const CLI::App* const inspect_app = addInspect(app, inspect);
-    const CLI::App* const validate_app = addValidate(app, validate);
-    const CLI::App* const convert_app = addConvert(app, convert);
-    const CLI::App* const info_app = addInfo(app, info);
-    const CLI::App* const bench_app = addBench(app, bench);
-    if (const std::optional<std::string> text = parse(app, argc, argv))
+    describeProgram(app, kMainFooter);
+    const std::vector<CommandEntry<Command>> commands = {
+        {"render", "voxelize scenes, or load a tree, and ray trace a picture", kRenderFooter, RenderOptions()},
+        {"voxelize", "voxelize scenes and write the voxels", kVoxelizeFooter, VoxelizeOptions()},
+        {"build", "voxelize scenes and write the tree to a .zvo file", kBuildFooter, BuildFileOptions()},
+        {"inspect", "tell what is in a .zvo file", kInspectFooter, InspectOptions()},
+        {"validate", "check everything in a .zvo file", kValidateFooter, ValidateOptions()},
+        {"convert", "make another kind of file of a .zvo or .vox file", kConvertFooter, ConvertOptions()},
+        {"info", "list the Vulkan devices and what they offer", kInfoFooter, InfoOptions()},
+    };
+    const auto add = [](CLI::App& command, auto& options) { addOptions(command, options); };
+    Command command = parseCommand(app, commands, add, argc, argv);
+    const auto check = [&]<typename Options>(const Options& options)
     {
-        return *text;
-    }
-    if (bench.dynamic && bench.scenes.empty())
-    {
-        throw usageError(app, "--dynamic needs a scene file (.scene.json) or another scene in which something moves");
-    }
-    if (bench_app->count("--structure") != 0 && !bench.dynamic && !bench.edit)
-    {
-        throw usageError(app, "--structure needs --dynamic or --edit");
-    }
-    for (const VoxelOptions* options : {&render.voxels, &voxelize.voxels, &build.voxels})
-    {
-        if (options->bounds && options->grid_position)
+        if constexpr (requires { options.voxels; })
         {
-            throw usageError(app, "--bounds and --grid exclude each other");
+            if (options.voxels.bounds && options.voxels.grid_position)
+            {
+                throw usageError(app, "--bounds and --grid exclude each other");
+            }
         }
-    }
-    const std::pair<const CLI::App*, Command> commands[] = {
-        {render_app, render},     {voxelize_app, voxelize}, {build_app, build}, {inspect_app, inspect},
-        {validate_app, validate}, {convert_app, convert},   {info_app, info},   {bench_app, bench}};
-    return std::ranges::find(commands, app.get_subcommands().front(), [](const auto& command) { return command.first; })
-        ->second;
+    };
+    std::visit(check, command);
+    return command;
 }
 
 } // namespace zvo::cli

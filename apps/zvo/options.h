@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "bench/bench_options.h"
 #include "common/integrator.h"
 #include "common/scene_options.h"
 #include "core/path/path_tracer.h"
@@ -117,7 +116,7 @@ struct InfoOptions
 
 /// The command line's request: the options of one command, or a text that is printed (help, version).
 using Command = std::variant<std::string, RenderOptions, VoxelizeOptions, BuildFileOptions, InspectOptions,
-                             ValidateOptions, ConvertOptions, InfoOptions, BenchOptions>;
+                             ValidateOptions, ConvertOptions, InfoOptions>;
 
 /// Reads the command line. Throws Error{Usage}, one line, for anything that is not understood.
 Command parseCommandLine(int argc, const char* const* argv);

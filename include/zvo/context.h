@@ -46,7 +46,7 @@ struct ContextInfo
                                      // it would take more and can be asked
     std::uint32_t timed_passes_per_frame = 0; // passes of a frame whose times passTimes() tells, at most 65536; 0:
                                               // none. Without OptionalFeatures::pass_times there are none either
-    std::string_view tuning = {}; // "NAME=VALUE,..." as `zvo bench --tune` prints it: forms and sizes of kernels in
+    std::string_view tuning = {}; // "NAME=VALUE,..." as `zvo-bench tune` prints it: forms and sizes of kernels in
                                   // place of those that zvo chooses for the device (docs/performance.md). Results stay
                                   // the same. Only the constructor reads it; subgroup_size, if not 0, goes before it
 };

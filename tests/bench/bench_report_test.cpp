@@ -97,6 +97,21 @@ TEST(BenchReport, AFigureIsThatOfTheTargetsSceneResolutionAndKind)
     EXPECT_EQ(lastOfTarget(other), (Words{"-", "not measured"}));
 }
 
+TEST(BenchReport, AFigureIsThatOfTheReportThatHasMeasuredIt)
+{
+    const Json rays = Json::parse(R"({"schema": "zvo.bench/1", "rows": [{"scene": "ball", "resolution": 128,
+        "voxelize_ms": null, "compress_ms": null, "trace_ms": {"median": 3}}]})");
+    const Json pictures = target(R"([["trace_ms"]])");
+    const Json voxels = target(R"([["voxelize_ms"]])");
+    for (const std::vector<Json>& reports : {std::vector{builtReport(), rays}, std::vector{rays, builtReport()}})
+    {
+        const auto lines = cells(targetTable({{"targets", {pictures, voxels}}}, reports));
+        ASSERT_EQ(lines.size(), 2U);
+        EXPECT_EQ(lines[0].at(6), "3.000");
+        EXPECT_EQ(lines[1].at(6), "2.500");
+    }
+}
+
 TEST(BenchReport, ATargetMayLackWhatNobodyKnows)
 {
     Json other = target(R"([["voxelize_ms"]])");

@@ -3,15 +3,12 @@
 #include "cli/cli_scene.h"
 #include "cli/run_zvo.h"
 #include "io/image/hdr_image_io.h"
-#include "support/scenes.h"
 #include "support/temp_dir.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <fmt/format.h>
 #include <nlohmann/json.hpp>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -160,117 +157,6 @@ TEST_F(CliCached, TracesWithoutLightIfThereIsNoRoom)
     EXPECT_TRUE(contentOf(m_dir.path() / "small.png") == contentOf(m_dir.path() / "primary.png"));
     const Outcome radiance = render({"-o", "small.exr", "--memory-limit", "14M"});
     EXPECT_EQ(radiance.exit_code, 6) << radiance.err;
-}
-
-// The benchmark compares with paths, and more frames are closer to them.
-TEST_F(CliCached, IsMeasuredBesidePaths)
-{
-    const Outcome outcome = runZvo(m_dir.path(), {"bench", "--kept", "cube.glb", "--resolution", "8", "--size", "24x18",
-                                                  "--reference", "64", "--json", "-"});
-    ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
-    const nlohmann::json report = nlohmann::json::parse(outcome.out);
-    EXPECT_EQ(report["schema"], "zvo.bench_kept/1");
-    const nlohmann::json& rows = report["rows"];
-    ASSERT_EQ(rows.size(), 10U);
-    EXPECT_EQ(rows[0]["integrator"], "primary");
-    EXPECT_EQ(rows[3]["integrator"], "path");
-    for (const std::size_t i : {4U, 6U, 8U})
-    {
-        EXPECT_EQ(rows[i]["integrator"], "cached");
-        EXPECT_EQ(rows[i + 1]["integrator"], "cones");
-        EXPECT_EQ(rows[i]["samples"], rows[i + 1]["samples"]);
-        EXPECT_EQ(rows[i]["bytes_of_voxel"], rows[i + 1]["bytes_of_voxel"]);
-        EXPECT_LT(rows[i + 1]["relative_error"], 0.1) << "nothing but the sky and the sun lights a cube";
-        EXPECT_GT(rows[i + 1]["flip"], 0.0);
-        EXPECT_GT(rows[i + 1]["frame_ms"], 0.0);
-    }
-    EXPECT_LT(rows[8]["relative_error"], rows[1]["relative_error"]);
-    EXPECT_GT(rows[8]["paths_of_error"], 1.0);
-    EXPECT_GT(rows[8]["of_their_time"], 0.0);
-    EXPECT_GT(rows[8]["flip"], 0.0);
-    EXPECT_LT(rows[8]["flip"], 1.0);
-    EXPECT_GT(rows[8]["reference_error"], 0.0);
-    EXPECT_LT(rows[8]["reference_error"], rows[3]["relative_error"]) << "of 64 paths, beside 16";
-    expectErrorLine(runZvo(m_dir.path(), {"bench", "--kept", "--denoise", "cube.glb"}), 2, {"--kept"});
-    expectErrorLine(runZvo(m_dir.path(), {"bench", "--reference", "4", "cube.glb"}), 2, {"--reference", "--kept"});
-}
-
-// A cube crosses the picture in front of another one; or it moves behind the camera, and nothing is near.
-TEST_F(CliCached, IsMeasuredWhereSomethingMoves)
-{
-    const auto measure = [&](const std::string& from, const std::string& to)
-    {
-        m_dir.write("move.scene.json", fmt::format(R"({{"seconds": 2, "frames_per_second": 20, "grid": {{"bounds":
-                    {{"min": [-2, -2, -2], "max": [6, 6, 6]}}}}, "camera": {{"eye": [0.5, 0.5, 5], "target": [0.5, 0.5, 0]}},
-                    "objects": [{{"file": "cube.glb"}}, {{"file": "cube.glb", "place": {{"scale": 0.4}},
-                    "motion": {{"line": {{"from": [{}], "to": [{}]}}}}}}]}})",
-                                                   from, to));
-        const Outcome outcome = runZvo(m_dir.path(), {"bench", "--kept", "move.scene.json", "--resolution", "16",
-                                                      "--size", "24x18", "--reference", "64", "--json", "-"});
-        EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
-        return nlohmann::json::parse(outcome.out);
-    };
-    const nlohmann::json report = measure("-1, 0.3, 1.5", "2, 0.3, 1.5");
-    EXPECT_TRUE(report["rows"].empty());
-    ASSERT_EQ(report["motion"].size(), 1U) << "by day: nothing gives off light";
-    const nlohmann::json& motion = report["motion"][0];
-    EXPECT_EQ(motion["scene"], "move");
-    EXPECT_EQ(motion["light"], "day");
-    EXPECT_EQ(motion["resolution"], 16);
-    EXPECT_GT(motion["near_share"], 0.02);
-    EXPECT_GT(motion["calm_share"], 0.02);
-    EXPECT_LT(motion["near_share"].get<double>() + motion["calm_share"].get<double>(), 1.0);
-    EXPECT_GT(motion["still"]["near_relative_error"], 0.0);
-    EXPECT_LT(motion["still"]["near_relative_error"], 0.5);
-    EXPECT_GT(motion["still"]["near_lag"], 0.0) << "other noise";
-    ASSERT_EQ(motion["after"].size(), 5U);
-    EXPECT_EQ(motion["after"][0]["frames"], 0);
-    EXPECT_EQ(motion["after"][4]["frames"], 32);
-    for (const nlohmann::json& after : motion["after"])
-    {
-        EXPECT_NEAR(after["of_still"].get<double>(),
-                    after["relative_error"].get<double>() / motion["still"]["relative_error"].get<double>(), 1e-9);
-        EXPECT_GT(after["near_of_still"], 0.5);
-        EXPECT_LT(after["flip"], 1.0);
-    }
-    EXPECT_GT(motion["after"][0]["near_lag"], motion["after"][4]["near_lag"]);
-    EXPECT_GT(motion["after"][0]["near_lag"], motion["still"]["near_lag"]);
-    EXPECT_GT(motion["flicker"]["still"], 0.0);
-    EXPECT_LT(motion["flicker"]["moving"], 0.5);
-    EXPECT_GE(motion["flicker"]["of_still"], 0.5);
-
-    const nlohmann::json unseen = measure("4, 4, 5.4", "5, 4, 5.4")["motion"][0];
-    EXPECT_EQ(unseen["near_share"], 0.0);
-    EXPECT_TRUE(unseen["still"]["near_relative_error"].is_null());
-    EXPECT_TRUE(unseen["after"][0]["near_of_still"].is_null());
-    EXPECT_GT(unseen["calm_share"], 0.9);
-
-    m_dir.write("still.scene.json", std::string_view(R"({"objects": [{"file": "cube.glb"}]})"));
-    expectErrorLine(runZvo(m_dir.path(), {"bench", "--kept", "still.scene.json"}), 3, {"still.scene.json", "moves"});
-}
-
-// Sponza is seen from inside, where another camera is not asked for.
-TEST_F(CliCached, SponzaIsMeasuredInside)
-{
-    const std::optional<std::filesystem::path> sponza = sharedScene("sponza.glb");
-    if (!sponza)
-    {
-        GTEST_SKIP() << "sponza.glb is not there";
-    }
-    const auto rows = [&](const std::vector<std::string>& more)
-    {
-        std::vector<std::string> arguments = {
-            "bench",  "--kept", sponza->string(), "--resolution", "32", "--size", "16x9", "--reference", "4",
-            "--json", "-"};
-        arguments.insert(arguments.end(), more.begin(), more.end());
-        const Outcome outcome = runZvo(m_dir.path(), arguments);
-        EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
-        return nlohmann::json::parse(outcome.out)["rows"];
-    };
-    const nlohmann::json inside = rows({"--camera=-10,1.5,-0.4,5,2.5,-0.4,75"});
-    const nlohmann::json usual = rows({});
-    ASSERT_EQ(usual.size(), 10U) << "by day alone";
-    EXPECT_EQ(usual[1]["relative_error"], inside[1]["relative_error"]);
 }
 
 TEST_F(CliCached, ErrorsNameTheOption)

@@ -3,7 +3,6 @@
 #include "cli/cli_scene.h"
 #include "cli/run_zvo.h"
 #include "core/base/read_file.h"
-#include "core/base/tuning.h"
 #include "io/image/hdr_image_io.h"
 #include "io/image/image_io.h"
 #include "support/temp_dir.h"
@@ -13,7 +12,6 @@
 #include <chrono>
 #include <csignal>
 #include <filesystem>
-#include <map>
 #include <nlohmann/json.hpp>
 #include <numeric>
 #include <string>
@@ -201,21 +199,6 @@ TEST_F(CliPath, SequencesAreDenoisedTogether)
     EXPECT_EQ(last("0..2", "frame_0.png"), last("0..0", "frame_0.png"));
 }
 
-TEST_F(CliPath, BenchTellsHowCloseDenoisedPicturesCome)
-{
-    const Outcome outcome = runZvo(
-        m_dir.path(), {"bench", "--denoise", "cube.glb", "--resolution", "8", "--reference", "16", "--json", "-"});
-    ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
-    const nlohmann::json report = nlohmann::json::parse(outcome.out);
-    ASSERT_EQ(report["rows"].size(), 8U) << "by day alone";
-    const nlohmann::json& noisy = report["rows"][0];
-    const nlohmann::json& denoised = report["rows"][1];
-    EXPECT_EQ(noisy["samples"], 1);
-    EXPECT_TRUE(denoised["denoised"]);
-    EXPECT_GT(denoised["psnr_db"], noisy["psnr_db"]);
-    EXPECT_LE(denoised["ssim"], 1.0);
-}
-
 // A map as bright as a file holds, times 1e30.
 TEST_F(CliPath, TheBrightestLightIsANumber)
 {
@@ -289,53 +272,11 @@ TEST_F(CliPath, DarknessIsToldOf)
     EXPECT_FALSE(warns({}));
 }
 
-TEST_F(CliPath, BenchTellsOfRaysAndVariances)
+TEST_F(CliPath, TuningKeepsThePicture)
 {
-    const Outcome outcome = runZvo(m_dir.path(), {"bench", "--path", "cube.glb", "--resolution", "8", "--runs", "1",
-                                                  "--size", "320x180", "--environment", "sky.exr", "--json", "-"});
-    ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
-    const nlohmann::json report = nlohmann::json::parse(outcome.out);
-    const nlohmann::json& row = report["rows"][0];
-    EXPECT_EQ(report["width"], 320);
-    EXPECT_EQ(report["height"], 180);
-    EXPECT_EQ(row["primary"]["count"], 320 * 180);
-    EXPECT_LT(row["bounces"]["count"], row["primary"]["count"]) << "a cube sends no ray back to itself";
-    EXPECT_GT(row["shadows"]["count"], 1000);
-    EXPECT_GT(row["sample_ms"]["median"], 0.0);
-    EXPECT_GT(row["one_kernel_ms"]["median"], 0.0);
-    ASSERT_EQ(report["variances"].size(), 1U) << "nothing gives off light";
-    EXPECT_EQ(report["variances"][0]["light"], "sky");
-    expectErrorLine(runZvo(m_dir.path(), {"bench", "cube.glb", "--environment", "sky.exr"}), 2, {"--environment"});
-}
-
-TEST_F(CliPath, BenchMeasuresEveryChoiceByDevice)
-{
-    const Outcome outcome = runZvo(m_dir.path(), {"bench", "--tune", "cube.glb", "--resolution", "8", "--runs", "1",
-                                                  "--size", "32x18", "--json", "-"});
-    ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
-    const nlohmann::json report = nlohmann::json::parse(outcome.out);
-    std::map<std::string, int> value_counts;
-    std::map<std::string, int> default_counts;
-    for (const nlohmann::json& row : report["rows"])
-    {
-        value_counts[row["choice"]] += 1;
-        default_counts[row["choice"]] += row["is_default"] ? 1 : 0;
-        EXPECT_GT(row["ms"]["median"], 0.0) << row["choice"];
-    }
-    EXPECT_EQ(value_counts["node-lanes"], 5);
-    EXPECT_EQ(value_counts["path-form"], 2);
-    EXPECT_EQ(value_counts.size(), tuningTable().size());
-    for (const auto& [choice, count] : default_counts)
-    {
-        EXPECT_EQ(count, 1) << choice;
-    }
     EXPECT_EQ(render({"-o", "plain.png"}).exit_code, 0);
-    for (const std::string& tuning : {report["tuning"].get<std::string>(), std::string("row-columns=64,node-lanes=8")})
-    {
-        EXPECT_EQ(render({"-o", "tuned.png", "-f", "--tuning", tuning}).exit_code, 0) << tuning;
-        EXPECT_EQ(readFile(m_dir.path() / "tuned.png"), readFile(m_dir.path() / "plain.png"));
-    }
-    expectErrorLine(runZvo(m_dir.path(), {"bench", "--tune", "cube.glb", "cube.glb"}), 2, {"--tune", "one scene"});
+    EXPECT_EQ(render({"-o", "tuned.png", "--tuning", "row-columns=64,node-lanes=8"}).exit_code, 0);
+    EXPECT_EQ(readFile(m_dir.path() / "tuned.png"), readFile(m_dir.path() / "plain.png"));
 }
 
 TEST_F(CliPath, ErrorsNameTheOption)

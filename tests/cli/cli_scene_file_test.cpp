@@ -444,9 +444,6 @@ const std::vector<WrongUse>& wrongUses()
          2,
          {"render", "test.scene.json", "-o", "a.png", "--scenes", "models", "--json", "models/slab.glb", "-f"},
          {"models/slab.glb", "overwritten"}},
-        {"BenchWithoutDynamic", 2, {"bench", "test.scene.json"}, {"test.scene.json", "--dynamic"}},
-        {"BenchOfDynamicAndBalance", 2, {"bench", "--dynamic", "--balance"}, {"--dynamic", "--balance"}},
-        {"BenchOfDynamicWithoutScene", 2, {"bench", "--dynamic"}, {"--dynamic", "scene file"}},
     };
     return uses;
 }

@@ -47,7 +47,7 @@ TEST_F(CliRun, HelpAndVersionAreData)
 {
     EXPECT_TRUE(contains(run({"--help"}).out, "render"));
     EXPECT_TRUE(contains(run({"--version"}).out, "zvo "));
-    for (const char* command : {"render", "voxelize", "info", "bench"})
+    for (const char* command : {"render", "voxelize", "info"})
     {
         const Outcome outcome = run({command, "--help"});
         EXPECT_TRUE(contains(outcome.out, "Examples:"));

@@ -255,7 +255,6 @@ TEST(CliTree, RefusalsAreOneLineWithTheirExitCode)
         {{"render", "svo.zvo", "-o", "a.png", "--resolution", "64"}, 2, "--resolution does not go with svo.zvo"},
         {{"render", "svo.zvo", "-o", "a.png", "--attributes", "none"}, 2, "--attributes does not go with"},
         {{"render", "svo.zvo", "-o", "a.png", "--structure", "svdag"}, 2, "--structure does not go with"},
-        {{"bench", "cube.glb", "--structure", "svdag"}, 2, "--dynamic"},
         {{"render", "svo.zvo", "cube.glb", "-o", "a.png"}, 2, "stands alone"},
         {{"build", "cube.glb", "-o", "svo.zvo", "--resolution", "32"}, 4, "exists already"},
         {{"build", "cube.glb", "-o", "/dev/full", "--resolution", "8"}, 2, "name it .zvo"},

@@ -77,17 +77,8 @@ std::vector<std::string> environmentWith(const std::vector<std::string>& more)
 std::vector<std::string> commandLine(std::vector<std::string> arguments)
 {
     arguments.insert(arguments.begin(), "zvo");
-    const bool runs =
-        arguments.size() > 2 && (arguments[1] == "render" || arguments[1] == "voxelize" || arguments[1] == "bench");
-    if (runs && std::find(arguments.begin(), arguments.end(), "--device") == arguments.end())
-    {
-        arguments.insert(arguments.end(), {"--device", deviceOptions().device});
-    }
-    if (runs && deviceOptions().validation)
-    {
-        arguments.emplace_back("--validation");
-    }
-    return arguments;
+    const bool runs = arguments.size() > 2 && (arguments[1] == "render" || arguments[1] == "voxelize");
+    return runs ? onTestDevice(std::move(arguments)) : arguments;
 }
 
 std::filesystem::path newFile()
@@ -157,6 +148,19 @@ Outcome ZvoProcess::wait()
             contentOf(m_err)};
 }
 
+std::vector<std::string> onTestDevice(std::vector<std::string> arguments)
+{
+    if (std::find(arguments.begin(), arguments.end(), "--device") == arguments.end())
+    {
+        arguments.insert(arguments.end(), {"--device", deviceOptions().device});
+    }
+    if (deviceOptions().validation)
+    {
+        arguments.emplace_back("--validation");
+    }
+    return arguments;
+}
+
 Outcome runZvo(const std::filesystem::path& folder, const std::vector<std::string>& arguments,
                const std::vector<std::string>& environment)
 {
@@ -180,11 +184,12 @@ std::vector<std::string> filesIn(const std::filesystem::path& folder)
     return names;
 }
 
-void expectErrorLine(const Outcome& outcome, int exit_code, const std::vector<std::string>& words)
+void expectErrorLine(const Outcome& outcome, int exit_code, const std::vector<std::string>& words,
+                     const std::string& program)
 {
     EXPECT_EQ(outcome.exit_code, exit_code) << outcome.err;
     EXPECT_EQ(outcome.out, "");
-    EXPECT_TRUE(outcome.err.starts_with("zvo: error: ")) << outcome.err;
+    EXPECT_TRUE(outcome.err.starts_with(program + ": error: ")) << outcome.err;
     EXPECT_EQ(outcome.err.find_first_of("\n\r\t"), outcome.err.size() - 1) << outcome.err;
     for (const std::string& word : words)
     {

@@ -43,12 +43,17 @@ private:
     pid_t m_pid = -1;
 };
 
+/// The arguments of a run that uses a device, with that of the tests; with validation where the tests' devices have it.
+std::vector<std::string> onTestDevice(std::vector<std::string> arguments);
+
 /// Runs zvo to its end.
 Outcome runZvo(const std::filesystem::path& folder, const std::vector<std::string>& arguments,
                const std::vector<std::string>& environment = {});
 
-/// Expects that a run failed with exit_code, and told why in one line that has each of words; it printed nothing else.
-void expectErrorLine(const Outcome& outcome, int exit_code, const std::vector<std::string>& words);
+/// Expects that a run of a program failed with exit_code, and told why in one line that has each of words; it printed
+/// nothing else.
+void expectErrorLine(const Outcome& outcome, int exit_code, const std::vector<std::string>& words,
+                     const std::string& program = "zvo");
 
 /// All bytes of a file.
 std::string contentOf(const std::filesystem::path& file);

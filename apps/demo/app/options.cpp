@@ -1,18 +1,19 @@
 // SPDX-License-Identifier: MIT
 #include "demo/app/options.h"
 
+#include "common/command_line.h"
 #include "common/option_groups.h"
 #include "common/output.h"
 #include "common/parse.h"
 #include "common/view.h"
 #include "zvo/error.h"
-#include "zvo/version.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include <array>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -23,7 +24,6 @@ namespace zvo::demo
 namespace
 {
 
-constexpr std::size_t kHelpColumn = 34;
 constexpr std::uint32_t kFramesInFlightMax = 4;
 constexpr double kStepMax = 10; // seconds
 
@@ -159,28 +159,19 @@ void addScriptOptions(CLI::App& app, DemoOptions& options)
     app.add_flag("-f,--force", options.overwrite, "overwrite files that exist")->group(kGroup);
 }
 
-Error usageError(std::string what)
-{
-    while (!what.empty() && (what.back() == '\n' || what.back() == '.'))
-    {
-        what.pop_back();
-    }
-    return {ErrorCode::Usage, fmt::format("{}; see zvo-demo --help", what)};
-}
-
-void check(const DemoOptions& options)
+void check(const CLI::App& app, const DemoOptions& options)
 {
     if (options.voxels.bounds && options.voxels.grid_position)
     {
-        throw usageError("--bounds and --grid exclude each other");
+        throw cli::usageError(app, "--bounds and --grid exclude each other");
     }
     if (!options.screenshot.empty() && !options.frame_count)
     {
-        throw usageError("--screenshot needs --frames, whose last one it shows");
+        throw cli::usageError(app, "--screenshot needs --frames, whose last one it shows");
     }
     if (options.screenshot == "-")
     {
-        throw usageError("--screenshot needs a file's name");
+        throw cli::usageError(app, "--screenshot needs a file's name");
     }
     if (!options.screenshot.empty())
     {
@@ -202,9 +193,7 @@ void check(const DemoOptions& options)
 std::variant<std::string, DemoOptions> parseCommandLine(int argc, const char* const* argv)
 {
     CLI::App app("zvo-demo shows triangle scenes, and trees, as voxels in a window.", "zvo-demo");
-    app.get_formatter()->column_width(kHelpColumn);
-    app.footer(kFooter);
-    app.set_version_flag("--version", "zvo-demo " ZVO_VERSION_TEXT, "print the version");
+    cli::describeProgram(app, kFooter);
     DemoOptions options;
     cli::addVoxelOptions(app, options.voxels, "; or one .zvo or .vox file");
     app.get_option("SCENE")->required(false);
@@ -215,27 +204,11 @@ std::variant<std::string, DemoOptions> parseCommandLine(int argc, const char* co
     addWindowOptions(app, options);
     addScriptOptions(app, options);
     cli::addDeviceOptions(app, options.device);
-    try
+    if (const std::optional<std::string> text = cli::parse(app, argc, argv))
     {
-        app.parse(argc, argv);
+        return *text;
     }
-    catch (const CLI::CallForHelp&)
-    {
-        return app.help();
-    }
-    catch (const CLI::CallForVersion& version)
-    {
-        return std::string(version.what()) + "\n";
-    }
-    catch (const CLI::ParseError& error)
-    {
-        throw usageError(error.what());
-    }
-    catch (const Error& error)
-    {
-        throw usageError(error.what());
-    }
-    check(options);
+    check(app, options);
     return options;
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What zvo chooses by device: forms and sizes of kernels that give the same results, of which one suits GPUs and
 // another software devices. All of these choices stand in one table, which the owner of a device can overrule
-// (vk::DeviceHandles::tuning) and `zvo bench --tune` measures.
+// (vk::DeviceHandles::tuning) and `zvo-bench tune` measures.
 #pragma once
 
 #include "vk/device.h"

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
-// Tables and reports of `zvo bench`.
-#include "cli/cli_run.h"
+// Tables and reports of zvo-bench.
+#include "bench/bench_run.h"
 #include "core/headless/compress.h"
 
 #include <gtest/gtest.h>
 
 #include <cstdint>
+#include <iterator>
 #include <map>
 #include <set>
 #include <string>
@@ -18,41 +19,80 @@ namespace zvo::test
 namespace
 {
 
-TEST_F(CliRun, BenchTellsATableAndAReport)
+TEST_F(BenchRun, HelpAndVersionAreData)
 {
-    const Outcome outcome =
-        run({"bench", "cube.glb", "--resolutions", "16,32", "--runs", "1", "--json", "bench.json", "--passes"});
-    EXPECT_TRUE(contains(outcome.out, "\n| cube "));
-    EXPECT_TRUE(contains(outcome.out, "| voxelize/triangles "));
-    EXPECT_TRUE(contains(outcome.out, " trace DAG ms |"));
-    const json report = json::parse(file("bench.json"));
-    expectFields(report, {"schema string", "device.name string"});
-    ASSERT_EQ(report["rows"].size(), 2U);
-    for (const json& row : report["rows"])
+    EXPECT_TRUE(run({"--version"}).out.starts_with("zvo-bench "));
+    const std::string help = run({"--help"}).out;
+    for (const char* command :
+         {"build", "rays", "dynamic", "edit", "path", "kept", "denoise", "baselines", "balance", "tune", "report"})
     {
-        expectFields(row, {"scene string", "resolution number", "coverage string", "triangles number", "voxels number",
-                           "nodes number", "geometry_bytes_per_voxel number", "attribute_bytes_per_voxel number",
-                           "voxelize_ms.median number", "voxelize_ms.min number", "voxelize_ms.max number",
-                           "build_ms.median number", "trace_ms.median number", "mvoxels_per_s number",
-                           "mrays_per_s number", "peak_device_bytes number", "compress_ms.median number",
-                           "trace_dag_ms.median number", "trace_dag_ratio.min number"});
-        EXPECT_GT(row["hits"], 0);
-        EXPECT_GT(row["compress_ratio"], 0);
-        EXPECT_GT(row["trace_dag_ms"]["median"], 0);
-        EXPECT_GE(row["trace_dag_ratio"]["min"],
-                  row["trace_dag_ms"]["min"].get<double>() / row["trace_ms"]["max"].get<double>());
-        EXPECT_LE(row["trace_dag_ratio"]["max"],
-                  row["trace_dag_ms"]["max"].get<double>() / row["trace_ms"]["min"].get<double>());
-        if (!row["embree_user_mrays_per_s"].is_null())
+        EXPECT_TRUE(contains(help, std::string("\n  ") + command + " ")) << command;
+        const Outcome outcome = run({command, "--help"});
+        EXPECT_TRUE(contains(outcome.out, std::string("Examples:\n  zvo-bench ") + command)) << command;
+        EXPECT_FALSE(contains(outcome.out, "Excludes:") || contains(outcome.out, "Needs:")) << command;
+        EXPECT_EQ(outcome.err, "");
+    }
+}
+
+// The names of fields that have a value.
+std::set<std::string> measuredFields(const json& row)
+{
+    std::set<std::string> names;
+    for (const auto& [name, value] : row.items())
+    {
+        if (!value.is_null() && !name.starts_with("embree_"))
         {
-            expectFields(row, {"embree_user_mrays_per_s number", "embree_triangle_mrays_per_s number"});
-            // Rays along edges may hit either side.
-            EXPECT_NEAR(row["embree_user_hits"].get<double>(), row["hits"].get<double>(), 16.0);
+            names.insert(name);
         }
     }
-    EXPECT_EQ(report["rows"][1]["resolution"], 32);
-    BuildResult built = build(m_grid);
+    return names;
+}
+
+constexpr const char* kSizes[] = {"scene",
+                                  "resolution",
+                                  "coverage",
+                                  "attributes",
+                                  "triangles",
+                                  "voxels",
+                                  "nodes",
+                                  "geometry_bytes",
+                                  "geometry_bytes_per_voxel",
+                                  "attribute_bytes_per_voxel",
+                                  "dag_nodes",
+                                  "dag_geometry_bytes",
+                                  "dag_geometry_bytes_per_voxel",
+                                  "dag_geometry_ratio",
+                                  "dag_rank_bytes",
+                                  "peak_device_bytes",
+                                  "passes"};
+
+TEST_F(BenchRun, BuildTellsOfTreesAndWhatMakingThemTakes)
+{
+    const Outcome outcome =
+        run({"build", "cube.glb", "--resolutions", "16,32", "--runs", "1", "--json", "build.json", "--passes"});
+    EXPECT_TRUE(contains(outcome.out, "\n| cube "));
+    EXPECT_TRUE(contains(outcome.out, " compress ms |"));
+    EXPECT_FALSE(contains(outcome.out, "Mrays/s"));
+    EXPECT_FALSE(contains(outcome.out, "Embree"));
+    EXPECT_TRUE(contains(outcome.out, "| voxelize/triangles "));
+    EXPECT_TRUE(contains(outcome.out, "| svdag/insert (DAG) "));
+    EXPECT_FALSE(contains(outcome.out, "| trace/"));
+    const json report = json::parse(file("build.json"));
+    expectFields(report, {"schema string", "device.name string", "width null", "height null", "runs number"});
+    EXPECT_EQ(report["schema"], "zvo.bench/1");
+    ASSERT_EQ(report["rows"].size(), 2U);
+    std::set<std::string> measured(std::begin(kSizes), std::end(kSizes));
+    measured.insert({"voxelize_ms", "build_ms", "compress_ms", "compress_ratio", "mvoxels_per_s"});
+    for (const json& row : report["rows"])
+    {
+        EXPECT_EQ(measuredFields(row), measured);
+        expectFields(row, {"voxelize_ms.median number", "voxelize_ms.min number", "voxelize_ms.max number",
+                           "build_ms.median number", "compress_ms.median number"});
+        EXPECT_GT(row["compress_ratio"], 0);
+    }
     const json& row = report["rows"][1];
+    EXPECT_EQ(row["resolution"], 32);
+    BuildResult built = build(m_grid);
     EXPECT_EQ(row["voxels"], built.octree.voxel_count);
     EXPECT_EQ(row["geometry_bytes"], built.octree.geometryBytes());
     const DeviceTree dag = compress(device(), std::move(built.octree)).dag;
@@ -61,20 +101,66 @@ TEST_F(CliRun, BenchTellsATableAndAReport)
     EXPECT_EQ(row["dag_rank_bytes"], dag.lists.rankBytes());
     EXPECT_DOUBLE_EQ(row["dag_geometry_ratio"].get<double>() * row["geometry_bytes"].get<double>(),
                      static_cast<double>(dag.geometryBytes()));
-    EXPECT_TRUE(contains(outcome.out, "| svdag/insert (DAG) "));
+}
+
+TEST_F(BenchRun, RaysTellsOfPicturesOfTheSameTrees)
+{
+    const Outcome outcome =
+        run({"rays", "cube.glb", "--resolutions", "16,32", "--runs", "1", "--json", "rays.json", "--passes"});
+    EXPECT_TRUE(contains(outcome.out, "\n| cube "));
+    EXPECT_TRUE(contains(outcome.out, " trace DAG ms |"));
+    EXPECT_FALSE(contains(outcome.out, "voxelize"));
+    EXPECT_FALSE(contains(outcome.out, "compress"));
     EXPECT_TRUE(contains(outcome.out, "| trace/ranks (DAG) "));
-    const std::string told = run({"bench", "--report", "bench.json"}).out;
+    const json report = json::parse(file("rays.json"));
+    expectFields(report, {"schema string", "device.name string", "width number", "height number", "runs number"});
+    EXPECT_EQ(report["schema"], "zvo.bench/1");
+    ASSERT_EQ(report["rows"].size(), 2U);
+    std::set<std::string> measured(std::begin(kSizes), std::end(kSizes));
+    measured.insert({"trace_ms", "trace_dag_ms", "trace_dag_ratio", "mrays_per_s", "node_paths_ms", "rays", "hits"});
+    for (const json& row : report["rows"])
+    {
+        EXPECT_EQ(measuredFields(row), measured);
+        EXPECT_GT(row["hits"], 0);
+        EXPECT_GT(row["trace_dag_ms"]["median"], 0);
+        EXPECT_GE(row["trace_dag_ratio"]["min"],
+                  row["trace_dag_ms"]["min"].get<double>() / row["trace_ms"]["max"].get<double>());
+        EXPECT_LE(row["trace_dag_ratio"]["max"],
+                  row["trace_dag_ms"]["max"].get<double>() / row["trace_ms"]["min"].get<double>());
+        EXPECT_EQ(contains(outcome.out, "Embree"), !row["embree_user_mrays_per_s"].is_null());
+        if (!row["embree_user_mrays_per_s"].is_null())
+        {
+            expectFields(row, {"embree_user_mrays_per_s number", "embree_triangle_mrays_per_s number"});
+            // Rays along edges may hit either side.
+            EXPECT_NEAR(row["embree_user_hits"].get<double>(), row["hits"].get<double>(), 16.0);
+        }
+    }
+    const BuildResult built = build(m_grid);
+    EXPECT_EQ(report["rows"][1]["voxels"], built.octree.voxel_count);
+    EXPECT_EQ(report["rows"][1]["geometry_bytes"], built.octree.geometryBytes());
+}
+
+TEST_F(BenchRun, ReportTellsOfSeveral)
+{
+    run({"build", "cube.glb", "--resolutions", "16", "--runs", "1", "--json", "build.json"});
+    run({"rays", "cube.glb", "--resolutions", "16", "--runs", "1", "--json", "rays.json"});
+    m_dir.write("targets.json", std::string_view(R"({"schema": "zvo.targets/1", "targets": [
+        {"work": "pictures of a cube", "unit": "ms", "published": null, "floor": null, "reach": 1e9, "moonshot": null,
+         "schema": "zvo.bench/1", "scene": "cube", "resolution": 16, "sums": [["trace_ms"]]}]})"));
+    const std::string told = run({"report", "build.json", "rays.json", "--targets", "targets.json"}).out;
+    EXPECT_TRUE(contains(told, "| pictures of a cube ")) << told;
+    EXPECT_TRUE(contains(told, " reached |")) << told;
     EXPECT_TRUE(contains(told, "\ncube at 16:\n"));
-    EXPECT_TRUE(contains(told, "\ncube at 32:\n"));
+    EXPECT_TRUE(contains(told, "| voxelize/triangles "));
     EXPECT_TRUE(contains(told, "| trace/primary"));
 }
 
-TEST_F(CliRun, BenchWithoutMemoryForTheDagTellsOfTheOctree)
+TEST_F(BenchRun, RaysWithoutMemoryForTheDagTellsOfTheOctree)
 {
-    const std::vector<std::string> arguments = {"bench", "cube.glb", "--resolutions", "32", "--runs",
-                                                "1",     "--json",   "bench.json",    "-f", "--passes"};
+    const std::vector<std::string> arguments = {"rays", "cube.glb", "--resolutions", "32", "--runs",
+                                                "1",    "--json",   "rays.json",     "-f", "--passes"};
     run(arguments);
-    const json whole = json::parse(file("bench.json"))["rows"][0];
+    const json whole = json::parse(file("rays.json"))["rows"][0];
     // A limit that suffices only for the octree: the DAG's node paths take 4 MiB beside it.
     constexpr std::uint64_t kMiB = 1 << 20;
     Outcome outcome;
@@ -84,14 +170,14 @@ TEST_F(CliRun, BenchWithoutMemoryForTheDagTellsOfTheOctree)
         limited.insert(limited.end(), {"--memory-limit", std::to_string(mib) + "MiB"});
         outcome = run(limited);
     }
-    EXPECT_TRUE(contains(outcome.err, "zvo: warning: no DAG of cube at 32: ")) << outcome.err;
+    EXPECT_TRUE(contains(outcome.err, "zvo-bench: warning: no DAG of cube at 32: ")) << outcome.err;
     EXPECT_TRUE(contains(outcome.err, "raise --memory-limit")) << outcome.err;
     EXPECT_TRUE(contains(outcome.out, " - |")) << outcome.out;
     EXPECT_FALSE(contains(outcome.out, " (DAG) ")) << outcome.out;
-    const json row = json::parse(file("bench.json"))["rows"][0];
+    const json row = json::parse(file("rays.json"))["rows"][0];
     for (const auto& [name, value] : whole.items())
     {
-        const bool of_dag = name.starts_with("dag_") || name.starts_with("compress_") || name.starts_with("trace_dag_");
+        const bool of_dag = name.starts_with("dag_") || name.starts_with("trace_dag_");
         EXPECT_EQ(row[name].is_null(), of_dag || value.is_null()) << name;
     }
     EXPECT_EQ(row["voxels"], whole["voxels"]);
@@ -100,10 +186,10 @@ TEST_F(CliRun, BenchWithoutMemoryForTheDagTellsOfTheOctree)
     EXPECT_GT(row["mrays_per_s"], 0);
 }
 
-TEST_F(CliRun, BenchOfBalanceTellsEverySceneAndItsRatios)
+TEST_F(BenchRun, BalanceTellsEverySceneAndItsRatios)
 {
     const Outcome outcome =
-        run({"bench", "--balance", "cube.glb", "--resolutions", "16,32", "--runs", "1", "--json", "balance.json"});
+        run({"balance", "cube.glb", "--resolutions", "16,32", "--runs", "1", "--json", "balance.json"});
     EXPECT_TRUE(contains(outcome.out, "\n| cube "));
     EXPECT_TRUE(contains(outcome.out, "\n| triangle / patch "));
     const json report = json::parse(file("balance.json"));
@@ -145,20 +231,20 @@ TEST_F(CliRun, BenchOfBalanceTellsEverySceneAndItsRatios)
                                                         {"largest doubling", 1}}));
 }
 
-TEST_F(CliRun, BenchOfBalanceNeedsNoAttributesAndNoFiles)
+TEST_F(BenchRun, BalanceNeedsNoAttributesAndNoFiles)
 {
-    const json report = json::parse(
-        run({"bench", "--balance", "--resolutions", "16", "--runs", "1", "--attributes", "none", "--json", "-"}).out);
+    const json report =
+        json::parse(run({"balance", "--resolutions", "16", "--runs", "1", "--attributes", "none", "--json", "-"}).out);
     EXPECT_EQ(report["rows"].size(), 5U);
     EXPECT_EQ(report["ratios"].size(), 3U);
     EXPECT_TRUE(report["rows"][0]["attributes_ms"].is_null());
     EXPECT_TRUE(report["ratios"][0]["attributes"].is_null());
 }
 
-TEST_F(CliRun, BenchOfEditTellsStrokesByRadiusActionAndNumber)
+TEST_F(BenchRun, EditTellsStrokesByRadiusActionAndNumber)
 {
-    const Outcome outcome = run({"bench", "--edit", "cube.glb", "--resolutions", "32", "--runs", "2", "--structure",
-                                 "svdag", "--json", "edit.json"});
+    const Outcome outcome =
+        run({"edit", "cube.glb", "--resolutions", "32", "--runs", "2", "--structure", "svdag", "--json", "edit.json"});
     EXPECT_TRUE(contains(outcome.out, "\n| cube "));
     EXPECT_TRUE(contains(outcome.out, "| compactions |"));
     const json report = json::parse(file("edit.json"));
@@ -195,10 +281,10 @@ TEST_F(CliRun, BenchOfEditTellsStrokesByRadiusActionAndNumber)
     EXPECT_GT(row["history"][2]["compactions"], 0);
 }
 
-TEST_F(CliRun, BenchOfBaselinesTellsEachSourceBesideZvo)
+TEST_F(BenchRun, BaselinesTellsEachSourceBesideZvo)
 {
     const Outcome outcome =
-        run({"bench", "--baselines", "cube.glb", "--resolutions", "16", "--runs", "1", "--json", "baselines.json"});
+        run({"baselines", "cube.glb", "--resolutions", "16", "--runs", "1", "--json", "baselines.json"});
     EXPECT_TRUE(contains(outcome.out, "| published ms |"));
     EXPECT_FALSE(contains(outcome.err, "warning"));
     const json report = json::parse(file("baselines.json"));
@@ -236,7 +322,7 @@ TEST_F(CliRun, BenchOfBaselinesTellsEachSourceBesideZvo)
     }
 }
 
-TEST_F(CliRun, BenchOfBaselinesUpdatesScenesThatMove)
+TEST_F(BenchRun, BaselinesUpdatesScenesThatMove)
 {
     m_dir.write("moving.scene.json", std::string_view(R"({
         "seconds": 1, "frames_per_second": 8,
@@ -244,7 +330,7 @@ TEST_F(CliRun, BenchOfBaselinesUpdatesScenesThatMove)
             {"name": "still", "file": "cube.glb", "static": true},
             {"name": "moving", "file": "cube.glb", "place": {"scale": 0.4},
              "motion": {"line": {"from": [-1, 0.8, 0], "to": [1, 0.8, 0]}}}]})"));
-    run({"bench", "--baselines", "moving.scene.json", "--resolutions", "32", "--runs", "2", "--json", "moving.json"});
+    run({"baselines", "moving.scene.json", "--resolutions", "32", "--runs", "2", "--json", "moving.json"});
     const json report = json::parse(file("moving.json"));
     std::set<std::string> updates;
     for (const json& row : report["rows"])
@@ -265,10 +351,10 @@ TEST_F(CliRun, BenchOfBaselinesUpdatesScenesThatMove)
     EXPECT_GT(report["orders"][1]["update_ms"]["median"], 0);
 }
 
-TEST_F(CliRun, CloseCameraHitsMore)
+TEST_F(BenchRun, CloseCameraHitsMore)
 {
-    run({"bench", "cube.glb", "--resolutions", "16", "--runs", "1", "--camera", "auto", "--json", "auto.json"});
-    run({"bench", "cube.glb", "--resolutions", "16", "--runs", "1", "--camera", "close", "--json", "close.json"});
+    run({"rays", "cube.glb", "--resolutions", "16", "--runs", "1", "--camera", "auto", "--json", "auto.json"});
+    run({"rays", "cube.glb", "--resolutions", "16", "--runs", "1", "--camera", "close", "--json", "close.json"});
     const double rays = 1920.0 * 1080.0;
     const double far_hits = json::parse(file("auto.json"))["rows"][0]["hits"].get<double>() / rays;
     const double close_hits = json::parse(file("close.json"))["rows"][0]["hits"].get<double>() / rays;
