@@ -1,10 +1,14 @@
 # SPDX-License-Identifier: MIT
 # Compiles every shaders/<operation>/<kernel>.comp to SPIR-V, simplifies it, checks it with spirv-val and embeds it as
-# the kernel "<operation>/<kernel>" in a generated source file. Kernels that include lib/bound.glsl are compiled twice.
+# the kernel "<operation>/<kernel>". Kernels that include lib/bound.glsl are compiled twice.
 
 find_program(GLSLANG_VALIDATOR glslangValidator REQUIRED)
 find_program(SPIRV_OPT spirv-opt REQUIRED)
 find_program(SPIRV_VAL spirv-val REQUIRED)
+
+# glslang spends most of its time on tables of built-in functions that it makes at every start: half as much of it where
+# glibc takes the memory in large pages.
+set(ZVO_FAST_START GLIBC_TUNABLES=glibc.malloc.hugetlb=1:glibc.malloc.top_pad=268435456)
 
 # What the compilers of drivers would do first, and for every pipeline anew: functions are inlined, and what nobody uses
 # goes. None of these passes changes arithmetic, so results stay the same bits.
@@ -29,32 +33,29 @@ function(zvo_choose_files list_name only without)
     set(${list_name} ${paths} PARENT_SCOPE)
 endfunction()
 
-# zvo_compile_kernel(SOURCE OUTPUT SYMBOL INCLUDE DEFINES PASSES DEPENDS): makes OUTPUT.spv and OUTPUT.cpp, which defines
-# the words as zvo::kernels::SYMBOL.
-function(zvo_compile_kernel source output symbol include defines passes depends)
+# zvo_compile_kernel(SOURCE OUTPUT INCLUDE DEFINES PASSES DEPENDS): makes OUTPUT, a checked SPIR-V module.
+function(zvo_compile_kernel source output include defines passes depends)
     get_filename_component(folder ${output} DIRECTORY)
     file(MAKE_DIRECTORY ${folder})
     file(RELATIVE_PATH name ${CMAKE_CURRENT_BINARY_DIR}/kernels ${output})
     add_custom_command(
-        # The SPIR-V first: that is the file which the depfile names.
-        OUTPUT ${output}.spv ${output}.cpp
+        OUTPUT ${output}
         DEPFILE ${output}.d
-        COMMAND ${GLSLANG_VALIDATOR} --quiet --target-env vulkan1.3 -I${include} ${defines} -S comp
-                --depfile ${output}.d -o ${output}.spv ${source}
+        COMMAND ${CMAKE_COMMAND} -E env ${ZVO_FAST_START} ${GLSLANG_VALIDATOR} --quiet --target-env vulkan1.3 -I${include} ${defines} -S comp
+                --depfile ${output}.d -o ${output} ${source}
         COMMAND ${SPIRV_OPT} --target-env=vulkan1.3 --scalar-block-layout --preserve-spec-constants
-                ${passes} ${output}.spv -o ${output}.spv
-        COMMAND ${SPIRV_VAL} --target-env vulkan1.3 --scalar-block-layout ${output}.spv
-        COMMAND ${CMAKE_COMMAND} -DINPUT=${output}.spv -DOUTPUT=${output}.cpp -DSYMBOL=${symbol}
-                -P ${PROJECT_SOURCE_DIR}/cmake/EmbedSpirv.cmake
-        DEPENDS ${source} ${PROJECT_SOURCE_DIR}/cmake/EmbedSpirv.cmake ${depends}
+                ${passes} ${output} -o ${output}
+        COMMAND ${SPIRV_VAL} --target-env vulkan1.3 --scalar-block-layout ${output}
+        DEPENDS ${source} ${depends}
         COMMENT "kernel ${name}"
         VERBATIM)
 endfunction()
 
 # zvo_embed_kernels(TARGET ROOT FUNCTION [ONLY folder | WITHOUT folder] [INCLUDE dir] [DEPENDS target] [AS_COMPILED]):
-# adds a generated source to TARGET that defines `std::span<const zvo::vk::EmbeddedKernel> zvo::FUNCTION()`, all kernels
+# adds generated sources to TARGET that define `std::span<const zvo::vk::EmbeddedKernel> zvo::FUNCTION()`, all kernels
 # below ROOT, those in a folder of it, or those in the others. They include what is below dir, by default zvo's own
-# shaders, after target was made. AS_COMPILED: they are not simplified.
+# shaders, after target was made. AS_COMPILED: they are not simplified. The assembler copies the modules' bytes, which
+# takes no time; a compiler would read them as numbers.
 function(zvo_embed_kernels target root function_name)
     cmake_parse_arguments(arg "AS_COMPILED" "ONLY;WITHOUT;INCLUDE;DEPENDS" "" ${ARGN})
     if(NOT arg_INCLUDE)
@@ -67,35 +68,50 @@ function(zvo_embed_kernels target root function_name)
     file(GLOB_RECURSE kernels CONFIGURE_DEPENDS RELATIVE ${root} ${root}/*.comp)
     zvo_choose_files(kernels "${arg_ONLY}" "${arg_WITHOUT}")
     set(out_dir ${CMAKE_CURRENT_BINARY_DIR}/kernels/${target})
-    set(embedded "")
+    set(modules "")
+    set(symbols "")
     set(declarations "")
     set(entries "")
     foreach(kernel ${kernels})
         string(REGEX REPLACE "\\.comp$" "" name ${kernel})
-        string(MAKE_C_IDENTIFIER ${name} symbol)
-        set(forms ${symbol})
         set(kernel_passes ${passes})
         if(passes AND name MATCHES "^voxelize/")
             set(kernel_passes ${ZVO_SPIRV_PASSES_VOXELIZE})
         endif()
-        zvo_compile_kernel(${root}/${kernel} ${out_dir}/${name} ${symbol} ${arg_INCLUDE} "" "${kernel_passes}" "${arg_DEPENDS}")
-        list(APPEND embedded ${out_dir}/${name}.cpp)
+        set(forms ${name})
         file(STRINGS ${root}/${kernel} has_bound_form REGEX "^#include \"lib/bound.glsl\"$")
         set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${root}/${kernel})
         if(has_bound_form)
-            list(APPEND forms ${symbol}_bound)
-            zvo_compile_kernel(${root}/${kernel} ${out_dir}/${name}.bound ${symbol}_bound ${arg_INCLUDE} -DBOUND
-                               "${kernel_passes}" "${arg_DEPENDS}")
-            list(APPEND embedded ${out_dir}/${name}.bound.cpp)
+            list(APPEND forms ${name}.bound)
         endif()
+        set(words "")
         foreach(form ${forms})
-            string(APPEND declarations
-                   "namespace zvo::kernels { extern const std::span<const std::uint32_t> ${form}; }\n")
+            set(module ${out_dir}/${form}.spv)
+            set(defines "")
+            if(form MATCHES "\\.bound$")
+                set(defines -DBOUND)
+            endif()
+            zvo_compile_kernel(${root}/${kernel} ${module} ${arg_INCLUDE} "${defines}" "${kernel_passes}" "${arg_DEPENDS}")
+            list(APPEND modules ${module})
+            string(MAKE_C_IDENTIFIER ${target}_${form} symbol)
+            string(APPEND symbols "MODULE(${symbol}, \"${module}\")\n")
+            string(APPEND declarations "extern \"C\" const std::uint32_t ${symbol}[], ${symbol}_end[];\n")
+            string(APPEND words ", {${symbol}, ${symbol}_end}")
         endforeach()
-        list(TRANSFORM forms PREPEND "zvo::kernels::")
-        list(JOIN forms ", " forms)
-        string(APPEND entries "        {\"${name}\", ${forms}},\n")
+        string(APPEND entries "        {\"${name}\"${words}},\n")
     endforeach()
+    file(CONFIGURE OUTPUT ${out_dir}/modules.S @ONLY CONTENT
+"/* Generated by cmake/Shaders.cmake. */
+#ifdef __APPLE__
+.section __DATA,__const
+#define MODULE(name, file) .private_extern _##name; .private_extern _##name##_end; .balign 4; _##name: .incbin file; _##name##_end:
+#else
+.section .note.GNU-stack,\"\",%progbits
+.section .rodata
+#define MODULE(name, file) .global name, name##_end; .hidden name, name##_end; .balign 4; name: .incbin file; name##_end:
+#endif
+@symbols@")
+    set_source_files_properties(${out_dir}/modules.S PROPERTIES OBJECT_DEPENDS "${modules}")
     file(CONFIGURE OUTPUT ${out_dir}/registry.cpp @ONLY CONTENT
 "// Generated by cmake/Shaders.cmake.
 #include \"vk/kernel.h\"
@@ -114,7 +130,7 @@ std::span<const vk::EmbeddedKernel> @function_name@()
 
 } // namespace zvo
 ")
-    target_sources(${target} PRIVATE ${embedded} ${out_dir}/registry.cpp)
+    target_sources(${target} PRIVATE ${modules} ${out_dir}/modules.S ${out_dir}/registry.cpp)
 endfunction()
 
 # zvo_list_kernels(TARGET ROOT FUNCTION [ONLY folder | WITHOUT folder]): adds a generated source to TARGET that defines
