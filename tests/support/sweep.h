@@ -10,7 +10,8 @@
 namespace zvo::test
 {
 
-/// Whether tests are to take the time that they need to show everything: ZVO_TEST_FULL=1.
+/// Whether tests are to take the time that they need to show everything: ZVO_TEST_FULL=1. tests/large.txt names, with a
+/// plus, the tests that have a large form.
 inline bool isFull()
 {
     const char* full = std::getenv("ZVO_TEST_FULL");
