@@ -1,7 +1,9 @@
 # SPDX-License-Identifier: MIT
 # Test binaries as ctest runs them, within the budgets of tests/budget.txt.
 
-set(ZVO_SHARD_SECONDS 20) # about what a process of tests takes on the reference machine
+# About what a process takes at most on the reference machine. Processes that begin together compile the same kernels,
+# each for itself, so they are few.
+set(ZVO_SHARD_SECONDS 90)
 
 # Binaries of which scripts/test has the layers check everything: hosts of all kinds, and every kernel once. With the
 # others it leaves out core checks, which validate each pipeline's SPIR-V anew and take most of the time; lifetimes,
@@ -11,14 +13,18 @@ set(ZVO_CORE_CHECKED vk small example glsl deform)
 # What binaries may take, and the tests that only run in their large form or are left to scripts/test --all.
 file(STRINGS ${PROJECT_SOURCE_DIR}/tests/budget.txt lines REGEX "^[a-z]")
 foreach(line ${lines})
-    string(REGEX MATCH "^([a-z_]+) +([0-9]+)( +([0-9]+))?" matched ${line})
+    string(REGEX MATCH "^([a-z_]+) +([0-9]+|-)( +([0-9]+))?" matched ${line})
+    if(NOT matched)
+        message(FATAL_ERROR "tests/budget.txt: ${line}")
+    endif()
     set(zvo_budget_${CMAKE_MATCH_1} ${CMAKE_MATCH_2})
     set(zvo_large_budget_${CMAKE_MATCH_1} ${CMAKE_MATCH_4})
 endforeach()
 file(STRINGS ${PROJECT_SOURCE_DIR}/tests/large.txt lines REGEX "^[a-z]")
 foreach(line ${lines})
-    string(REGEX MATCH "^([a-z_]+) +([^ ]+)" matched ${line})
-    list(APPEND zvo_large_${CMAKE_MATCH_1} ${CMAKE_MATCH_2})
+    if(line MATCHES "^([a-z_]+) +([^ ]+)")
+        list(APPEND zvo_large_${CMAKE_MATCH_1} ${CMAKE_MATCH_2})
+    endif()
 endforeach()
 set_property(DIRECTORY ${PROJECT_SOURCE_DIR} APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS
     ${PROJECT_SOURCE_DIR}/tests/budget.txt ${PROJECT_SOURCE_DIR}/tests/large.txt)
@@ -35,16 +41,17 @@ function(zvo_add_shards name target labels seconds filter)
     math(EXPR cost "${seconds} / ${shards}")
     foreach(shard RANGE ${last})
         math(EXPR number "${shard} + 1")
-        add_test(NAME ${name}${number} COMMAND ${PROJECT_SOURCE_DIR}/tests/limited ${cost} $<TARGET_FILE:${target}>)
+        add_test(NAME ${name}${number}
+            COMMAND ${PROJECT_SOURCE_DIR}/tests/limited ${name}${number} ${cost} $<TARGET_FILE:${target}>)
         set_tests_properties(${name}${number} PROPERTIES LABELS "${labels}" COST ${cost}
             ENVIRONMENT "GTEST_TOTAL_SHARDS=${shards};GTEST_SHARD_INDEX=${shard};GTEST_SHUFFLE=1;GTEST_BRIEF=1;GTEST_FILTER=${filter};${ARGN}")
     endforeach()
 endfunction()
 
-# zvo_add_tests(zvo_NAME_tests LABEL SOURCE...): a test binary; link what it tests to it afterwards. ctest runs it as
+# zvo_add_tests(zvo_NAME_tests LABELS SOURCE...): a test binary; link what it tests to it afterwards. ctest runs it as
 # NAME.1, NAME.2 and so on, and its tests in tests/large.txt as NAME.large.1 and so on, which have the label large as
 # well. docs/testing.md has the labels.
-function(zvo_add_tests target label)
+function(zvo_add_tests target labels)
     add_executable(${target} ${ARGN})
     set_target_properties(${target} PROPERTIES UNITY_BUILD_BATCH_SIZE 8) # names at file scope differ within these
     target_compile_options(${target} PRIVATE ${test_optimization})
@@ -52,10 +59,12 @@ function(zvo_add_tests target label)
     target_link_libraries(${target} PRIVATE zvo_options zvo_test_support)
     string(REGEX REPLACE "^zvo_(.*)_tests$" "\\1" name ${target})
     set_property(GLOBAL APPEND PROPERTY zvo_test_binaries ${name})
-    if(NOT label STREQUAL stress)
+    set(seconds ${zvo_budget_${name}})
+    if("stress" IN_LIST labels)
+        set(seconds ${zvo_large_budget_${name}}) # all of its tests take long
+    else()
         add_dependencies(zvo_tests ${target})
     endif()
-    set(seconds ${zvo_budget_${name}})
     if(NOT seconds)
         set(seconds 1) # Budget.* fails
     endif()
@@ -76,15 +85,21 @@ function(zvo_add_tests target label)
         set(left_out "*")
     endif()
     set(layers VK_LAYER_DISABLES=VK_VALIDATION_FEATURE_DISABLE_CORE_CHECKS_EXT)
-    if(name IN_LIST ZVO_CORE_CHECKED)
+    if("stress" IN_LIST labels OR name IN_LIST ZVO_CORE_CHECKED)
         set(layers "")
     endif()
-    zvo_add_shards(${name}. ${target} ${label} ${seconds} "${left_out}" ${layers})
+    zvo_add_shards(${name}. ${target} "${labels}" ${seconds} "${left_out}" ${layers})
     if(large)
         set(seconds ${zvo_large_budget_${name}})
         if(NOT seconds)
             set(seconds 1)
         endif()
-        zvo_add_shards(${name}.large. ${target} "${label};large" ${seconds} "${large}" ZVO_TEST_FULL=1)
+        zvo_add_shards(${name}.large. ${target} "${labels};large" ${seconds} "${large}" ZVO_TEST_FULL=1)
     endif()
+endfunction()
+
+# zvo_optimize_tests(TARGET): of tests that compute much on the host. Headers are precompiled without optimization.
+function(zvo_optimize_tests target)
+    target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
+    set_target_properties(${target} PROPERTIES DISABLE_PRECOMPILE_HEADERS ON)
 endfunction()

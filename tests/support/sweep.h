@@ -11,20 +11,20 @@ namespace zvo::test
 {
 
 /// Whether tests are to take the time that they need to show everything: ZVO_TEST_FULL=1. tests/large.txt names, with a
-/// plus, the tests that have a large form.
+/// plus, the tests that ask.
 inline bool isFull()
 {
     const char* full = std::getenv("ZVO_TEST_FULL");
     return full != nullptr && std::string_view(full) == "1";
 }
 
-/// Chooses the calls that fail, one in each run, in tests of all failures. By default every fifth call fails, the first
-/// of which is another one in each sweep of the same test. ZVO_TEST_SWEEP_START=N begins with call N modulo 5. With
-/// ZVO_TEST_FULL=1 every call fails.
+/// Chooses the calls that fail, one in each run, in tests of all failures. By default every eleventh call fails, the
+/// first of which is another one in each sweep of the same test. ZVO_TEST_SWEEP_START=N begins with call N modulo 11.
+/// With ZVO_TEST_FULL=1 every call fails.
 class Sweep
 {
 public:
-    explicit Sweep(std::uint64_t step = 5)
+    explicit Sweep(std::uint64_t step = 11)
     {
         m_step = test::isFull() ? 1 : step;
         const char* start = std::getenv("ZVO_TEST_SWEEP_START");

@@ -156,7 +156,7 @@ TEST(DynamicSequences, ShowWhatARebuildShows)
 {
     std::array sceneries = {DynamicScenery(device(), false), DynamicScenery(device(), true)};
     const auto any_commands = rc::gen::scale(0.4, rc::gen::container<std::vector<Command>>(anyCommand()));
-    test::checkProperty(test::isFull() ? 75 : 12,
+    test::checkProperty(test::isFull() ? 75 : 5,
                         [&]
                         {
                             const DynamicSetting setting = *anySetting();
@@ -180,7 +180,7 @@ TEST(DynamicSequences, ResumeWhateverFails)
     std::array sceneries = {DynamicScenery(failing, false), DynamicScenery(failing, true)};
     const auto any_commands = rc::gen::scale(0.4, rc::gen::container<std::vector<Command>>(anyCommand()));
     std::uint64_t failure_count = 0;
-    test::checkProperty(test::isFull() ? 8 : 2,
+    test::checkProperty(8,
                         [&]
                         {
                             const DynamicSetting setting = *anySetting();

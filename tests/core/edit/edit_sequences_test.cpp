@@ -4,6 +4,7 @@
 #include "support/edit_machine.h"
 #include "support/engine_device.h"
 #include "support/properties.h"
+#include "support/sweep.h"
 
 #include <gtest/gtest.h>
 
@@ -132,7 +133,7 @@ TEST(EditSequences, ShowWhatAModelHas)
 // Dynamic objects are anywhere, and a brush may come after any slice of an update.
 TEST(EditSequences, WithDynamicObjectsShowWhatAModelHas)
 {
-    play(true, 40);
+    play(true, test::isFull() ? 40 : 4);
 }
 
 } // namespace
