@@ -1,14 +1,22 @@
 # SPDX-License-Identifier: MIT
-# Compiles every shaders/<operation>/<kernel>.comp to SPIR-V, simplifies it, checks it with spirv-val and embeds it as
-# the kernel "<operation>/<kernel>". Kernels that include lib/bound.glsl are compiled twice.
+# Compiles every shaders/<operation>/<kernel>.comp to SPIR-V, simplifies and checks it (cmake/kernel_compiler), and embeds
+# it as the kernel "<operation>/<kernel>". Kernels that include lib/bound.glsl are compiled twice. Kernels of a folder are
+# compiled together.
 
-find_program(GLSLANG_VALIDATOR glslangValidator REQUIRED)
-find_program(SPIRV_OPT spirv-opt REQUIRED)
-find_program(SPIRV_VAL spirv-val REQUIRED)
-
-# At every start glslang makes tables of built-in functions, which is most of its time. It takes half as long where glibc
-# gets memory in large pages.
-set(ZVO_FAST_START GLIBC_TUNABLES=glibc.malloc.hugetlb=1:glibc.malloc.top_pad=268435456)
+if(CMAKE_CROSSCOMPILING)
+    include(ExternalProject)
+    ExternalProject_Add(zvo_kernel_compiler_build
+        SOURCE_DIR ${CMAKE_CURRENT_LIST_DIR}/kernel_compiler
+        CMAKE_ARGS -DCMAKE_BUILD_TYPE=Release
+        INSTALL_COMMAND ""
+        EXCLUDE_FROM_ALL TRUE)
+    ExternalProject_Get_Property(zvo_kernel_compiler_build BINARY_DIR)
+    add_executable(zvo_kernel_compiler IMPORTED GLOBAL)
+    set_target_properties(zvo_kernel_compiler PROPERTIES IMPORTED_LOCATION ${BINARY_DIR}/zvo_kernel_compiler)
+    add_dependencies(zvo_kernel_compiler zvo_kernel_compiler_build)
+else()
+    add_subdirectory(${CMAKE_CURRENT_LIST_DIR}/kernel_compiler ${PROJECT_BINARY_DIR}/kernel_compiler)
+endif()
 
 # What the compilers of drivers would do first, and for every pipeline anew: functions are inlined, and what nobody uses
 # goes. None of these passes changes arithmetic, so results stay the same bits.
@@ -33,21 +41,29 @@ function(zvo_choose_files list_name only without)
     set(${list_name} ${paths} PARENT_SCOPE)
 endfunction()
 
-# zvo_compile_kernel(SOURCE OUTPUT INCLUDE DEFINES PASSES DEPENDS): makes OUTPUT, a checked SPIR-V module.
-function(zvo_compile_kernel source output include defines passes depends)
-    get_filename_component(folder ${output} DIRECTORY)
-    file(MAKE_DIRECTORY ${folder})
-    file(RELATIVE_PATH name ${CMAKE_CURRENT_BINARY_DIR}/kernels ${output})
+# zvo_compile_kernels(NAME LIST INCLUDE PASSES DEPENDS): makes the modules of a list, of which three elements stand for a
+# kernel: its source, the module, and a word to define or `-`. One process compiles all of them.
+function(zvo_compile_kernels name list include passes depends)
+    set(lines "")
+    set(sources "")
+    set(modules "")
+    while(list)
+        list(POP_FRONT list source module word)
+        string(REGEX REPLACE "^-$" "" word "${word}")
+        string(APPEND lines "${source}\n${module}\n${word}\n")
+        list(APPEND sources ${source})
+        list(APPEND modules ${module})
+        get_filename_component(folder ${module} DIRECTORY)
+        file(MAKE_DIRECTORY ${folder})
+    endwhile()
+    set(list_file ${CMAKE_CURRENT_BINARY_DIR}/kernels/${name}.list)
+    file(CONFIGURE OUTPUT ${list_file} CONTENT "${lines}" @ONLY)
     add_custom_command(
-        OUTPUT ${output}
-        DEPFILE ${output}.d
-        COMMAND ${CMAKE_COMMAND} -E env ${ZVO_FAST_START} ${GLSLANG_VALIDATOR} --quiet --target-env vulkan1.3 -I${include} ${defines} -S comp
-                --depfile ${output}.d -o ${output} ${source}
-        COMMAND ${SPIRV_OPT} --target-env=vulkan1.3 --scalar-block-layout --preserve-spec-constants
-                ${passes} ${output} -o ${output}
-        COMMAND ${SPIRV_VAL} --target-env vulkan1.3 --scalar-block-layout ${output}
-        DEPENDS ${source} ${depends}
-        COMMENT "kernel ${name}"
+        OUTPUT ${modules}
+        DEPFILE ${CMAKE_CURRENT_BINARY_DIR}/kernels/${name}.d
+        COMMAND zvo_kernel_compiler ${list_file} ${include} ${CMAKE_CURRENT_BINARY_DIR}/kernels/${name}.d ${passes}
+        DEPENDS zvo_kernel_compiler ${list_file} ${sources} ${depends}
+        COMMENT "kernels ${name}"
         VERBATIM)
 endfunction()
 
@@ -86,12 +102,11 @@ function(zvo_embed_kernels target root function_name)
     set(symbols "")
     set(declarations "")
     set(entries "")
+    set(folders "")
     foreach(kernel ${kernels})
         string(REGEX REPLACE "\\.comp$" "" name ${kernel})
-        set(kernel_passes ${passes})
-        if(passes AND name MATCHES "^voxelize/")
-            set(kernel_passes ${ZVO_SPIRV_PASSES_VOXELIZE})
-        endif()
+        get_filename_component(folder ${target}/${kernel} DIRECTORY)
+        list(APPEND folders ${folder})
         set(forms ${name})
         file(STRINGS ${root}/${kernel} has_bound_form REGEX "^#include \"lib/bound.glsl\"$")
         set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${root}/${kernel})
@@ -101,11 +116,11 @@ function(zvo_embed_kernels target root function_name)
         set(words "")
         foreach(form ${forms})
             set(module ${out_dir}/${form}.spv)
-            set(defines "")
+            set(word -)
             if(form MATCHES "\\.bound$")
-                set(defines -DBOUND)
+                set(word BOUND)
             endif()
-            zvo_compile_kernel(${root}/${kernel} ${module} ${arg_INCLUDE} "${defines}" "${kernel_passes}" "${arg_DEPENDS}")
+            list(APPEND list_${folder} ${root}/${kernel} ${module} ${word})
             list(APPEND modules ${module})
             string(MAKE_C_IDENTIFIER ${target}_${form} symbol)
             string(APPEND symbols ".balign 4\n")
@@ -116,6 +131,14 @@ function(zvo_embed_kernels target root function_name)
             string(APPEND words ", {${symbol}, ${symbol}_end}")
         endforeach()
         string(APPEND entries "        {\"${name}\"${words}},\n")
+    endforeach()
+    list(REMOVE_DUPLICATES folders)
+    foreach(folder ${folders})
+        set(folder_passes ${passes})
+        if(passes AND folder STREQUAL "${target}/voxelize")
+            set(folder_passes ${ZVO_SPIRV_PASSES_VOXELIZE})
+        endif()
+        zvo_compile_kernels(${folder} "${list_${folder}}" ${arg_INCLUDE} "${folder_passes}" "${arg_DEPENDS}")
     endforeach()
     file(CONFIGURE OUTPUT ${out_dir}/modules.S @ONLY CONTENT
 "/* Generated by cmake/Shaders.cmake. */

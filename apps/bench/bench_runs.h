@@ -17,8 +17,8 @@
 namespace zvo::cli
 {
 
-/// For how long GPUs are warmed up: after a pause they raise their clocks within some tenths of a second.
-inline constexpr std::chrono::milliseconds kWarmUp{500};
+/// For how long GPUs are warmed up: after a pause they raise their clocks within a second or two.
+inline constexpr std::chrono::milliseconds kWarmUp{2500};
 
 /// Does work that is measured later: once, and on GPUs until they have run for kWarmUp.
 template <typename Work> void warmUp(vk::HeadlessDevice& device, const Work& work)
