@@ -27,6 +27,8 @@ struct DeviceOptions
     std::uint64_t memory_limit = UINT64_MAX; // bytes
     std::uint32_t dispatch_ms = 400;         // target for one submission of work; 0: never split
     vk::TuningValues tuning;                 // in place of what zvo chooses by device
+
+    friend bool operator==(const DeviceOptions&, const DeviceOptions&) = default;
 };
 
 /// Origin and voxel size of a grid, as a report states them.

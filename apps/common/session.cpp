@@ -4,6 +4,7 @@
 #include "common/environment.h"
 #include "common/progress.h"
 #include "common/report.h"
+#include "core/base/kernels.h"
 #include "io/scene/load_scene.h"
 #include "vk/log_file.h"
 #include "zvo/error.h"
@@ -12,6 +13,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <optional>
 #include <string>
 #include <system_error>
 #include <vector>
@@ -21,6 +23,13 @@ namespace zvo::cli
 
 namespace
 {
+
+struct KeptDevice
+{
+    DeviceOptions options;
+    std::shared_ptr<vk::HeadlessDevice> device;
+};
+std::optional<std::vector<KeptDevice>> g_kept_devices;
 
 // Returns an empty path if there is no folder for it.
 std::filesystem::path cacheFolder()
@@ -93,6 +102,32 @@ vk::HeadlessOptions headlessOptions(const DeviceOptions& options)
     const std::filesystem::path folder = cacheFolder();
     headless.pipeline_cache_path = folder.empty() ? "" : (folder / "pipelines.bin").string();
     return headless;
+}
+
+std::shared_ptr<vk::HeadlessDevice> openDevice(const DeviceOptions& options)
+{
+    const auto make = [&] { return std::make_shared<vk::HeadlessDevice>(headlessOptions(options), zvoKernels()); };
+    if (!g_kept_devices)
+    {
+        return make();
+    }
+    const auto kept = std::ranges::find(*g_kept_devices, options, &KeptDevice::options);
+    if (kept == g_kept_devices->end())
+    {
+        return g_kept_devices->emplace_back(options, make()).device;
+    }
+    kept->device->device().memory().resetPeak();
+    return kept->device;
+}
+
+KeptDevices::KeptDevices()
+{
+    g_kept_devices.emplace();
+}
+
+KeptDevices::~KeptDevices()
+{
+    g_kept_devices.reset();
 }
 
 Scene loadWithWarnings(std::span<const std::filesystem::path> paths, const LoadOptions& options)

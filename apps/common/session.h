@@ -14,6 +14,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <map>
+#include <memory>
 #include <span>
 #include <string>
 
@@ -23,6 +24,21 @@ namespace zvo::cli
 /// The options with which a command makes its device. Pipelines are kept below $XDG_CACHE_HOME/zvo, or ~/.cache/zvo;
 /// messages go to the file that $ZVO_LOG names, if any.
 vk::HeadlessOptions headlessOptions(const DeviceOptions& options);
+
+/// A device for a command, with zvo's kernels. While KeptDevices exist, it is that of an earlier command with the same
+/// options, if there was one. Throws Error{Device}.
+std::shared_ptr<vk::HeadlessDevice> openDevice(const DeviceOptions& options);
+
+/// While one exists, devices outlive their commands: so a process that runs many commands, such as tests, makes kernels
+/// once. One at a time.
+class KeptDevices
+{
+public:
+    KeptDevices();
+    ~KeptDevices();
+    KeptDevices(const KeptDevices&) = delete;
+    KeptDevices& operator=(const KeptDevices&) = delete;
+};
 
 /// Loads files as one scene and reports what was left out of it. Throws Error{Input}.
 Scene loadWithWarnings(std::span<const std::filesystem::path> paths, const LoadOptions& options);

@@ -120,7 +120,8 @@ void buildFile(const BuildFileOptions& options)
     const std::uint64_t triangle_count = scene.triangleCount();
 
     progress.begin("copying to the device");
-    vk::HeadlessDevice device(headlessOptions(options.device), zvoKernels());
+    const std::shared_ptr<vk::HeadlessDevice> opened = openDevice(options.device);
+    vk::HeadlessDevice& device = *opened;
     std::optional<GpuScene> gpu_scene = uploadWithWarnings(device, scene, options.voxels, grid, progress);
     scene = {};
 

@@ -89,17 +89,17 @@ void convert(const ConvertOptions& options)
     }
     Progress progress(2);
     progress.begin("loading");
-    std::optional<vk::HeadlessDevice> device; // only for what needs one
-    const auto openDevice = [&]
+    std::shared_ptr<vk::HeadlessDevice> device; // only for what needs one
+    const auto needDevice = [&]
     {
         if (!device)
         {
-            device.emplace(headlessOptions(options.device), zvoKernels());
+            device = openDevice(options.device);
         }
     };
     if (is_vox)
     {
-        openDevice();
+        needDevice();
     }
     TreeData tree = is_vox ? loadVox(options.file, *device) : readZvo(options.file).tree;
     if (format == "zvo" && tree.structure != options.structure)
@@ -110,7 +110,7 @@ void convert(const ConvertOptions& options)
                                                       "--structure out",
                                                       options.file.string()));
         }
-        openDevice();
+        needDevice();
         tree = compressTree(*device, std::move(tree));
     }
     progress.begin("writing");

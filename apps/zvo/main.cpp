@@ -1,43 +1,10 @@
 // SPDX-License-Identifier: MIT
 // zvo: the command line program. Data goes to standard output, messages to standard error.
-#include "build.h"
-#include "common/output.h"
-#include "common/run_program.h"
 #include "common/signals.h"
-#include "convert.h"
-#include "info.h"
-#include "inspect.h"
-#include "options.h"
-#include "render.h"
-#include "voxelize.h"
-
-#include <string>
-#include <variant>
-
-namespace zvo::cli
-{
-
-namespace
-{
-
-struct Run
-{
-    void operator()(const std::string& text) const { Output("-", true).write(text); }
-    void operator()(const RenderOptions& options) const { render(options); }
-    void operator()(const VoxelizeOptions& options) const { voxelize(options); }
-    void operator()(const BuildFileOptions& options) const { buildFile(options); }
-    void operator()(const InspectOptions& options) const { inspect(options); }
-    void operator()(const ValidateOptions& options) const { validate(options); }
-    void operator()(const ConvertOptions& options) const { convert(options); }
-    void operator()(const InfoOptions& options) const { info(options); }
-};
-
-} // namespace
-
-} // namespace zvo::cli
+#include "run_command_line.h"
 
 int main(int argc, char** argv)
 {
     zvo::cli::installSignalHandlers();
-    return zvo::cli::runProgram([&] { std::visit(zvo::cli::Run{}, zvo::cli::parseCommandLine(argc, argv)); });
+    return zvo::cli::runCommandLine(argc, argv);
 }

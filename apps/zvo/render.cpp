@@ -68,8 +68,7 @@ class RenderRun
 public:
     RenderRun(const RenderOptions& options, const CameraWork& camera_work, Pictures& pictures, Progress& progress)
         : m_options(options), m_camera_work(camera_work), m_pictures(pictures), m_progress(progress),
-          m_device(headlessOptions(options.device), zvoKernels()), m_renderer(m_device, options),
-          m_report(options, m_device)
+          m_opened(openDevice(options.device)), m_renderer(m_device, options), m_report(options, m_device)
     {
     }
 
@@ -224,7 +223,8 @@ private:
     const CameraWork& m_camera_work;
     Pictures& m_pictures;
     Progress& m_progress;
-    vk::HeadlessDevice m_device;
+    std::shared_ptr<vk::HeadlessDevice> m_opened;
+    vk::HeadlessDevice& m_device = *m_opened;
     Renderer m_renderer;
     RenderReport m_report;
     std::uint64_t m_triangle_count = 0; // of the last voxelized scene

@@ -60,7 +60,8 @@ void voxelize(const VoxelizeOptions& options)
     const std::uint64_t triangle_count = scene.triangleCount();
 
     progress.begin("copying to the device");
-    vk::HeadlessDevice device(headlessOptions(options.device), zvoKernels());
+    const std::shared_ptr<vk::HeadlessDevice> opened = openDevice(options.device);
+    vk::HeadlessDevice& device = *opened;
     const GpuScene gpu_scene = uploadWithWarnings(device, scene, options.voxels, grid, progress);
     scene = {};
 

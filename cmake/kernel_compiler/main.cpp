@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: MIT
-// Part of the build: compiles kernels to SPIR-V with glslang, simplifies them with spirv-opt's passes and checks them as
-// spirv-val does.
+// Part of the build: compiles kernels to SPIR-V with glslang, simplifies them with spirv-opt's passes and checks them
+// as spirv-val does.
 //   zvo_kernel_compiler LIST INCLUDE DEPFILE [PASS...]
-// LIST: a file with three lines a kernel, its source, the module to write, and a word to define or nothing. INCLUDE: the
-// folder where #include looks, after that of the including file. DEPFILE: gets what the modules were made of, as make
-// reads it. PASS: as spirv-opt takes them.
-// Many kernels share a process, because glslang makes tables of built-in functions when it starts, which takes longer
-// than most kernels.
+// LIST: a file with three lines a kernel, its source, the module to write, and a word to define or nothing. INCLUDE:
+// the folder where #include looks, after that of the including file. DEPFILE: gets what the modules were made of, as
+// make reads it. PASS: as spirv-opt takes them. Many kernels share a process, because glslang makes tables of built-in
+// functions when it starts, which takes longer than most kernels.
 #include <glslang/Public/ResourceLimits.h>
 #include <glslang/Public/ShaderLang.h>
 #include <glslang/SPIRV/GlslangToSpv.h>
@@ -56,7 +55,9 @@ void write(const std::string& file, const void* data, std::size_t size)
 class Includer : public glslang::TShader::Includer
 {
 public:
-    Includer(std::filesystem::path folder, std::set<std::string>& files) : m_folder(std::move(folder)), m_files(files) {}
+    Includer(std::filesystem::path folder, std::set<std::string>& files) : m_folder(std::move(folder)), m_files(files)
+    {
+    }
 
     IncludeResult* includeLocal(const char* name, const char* includer, std::size_t /*depth*/) override
     {

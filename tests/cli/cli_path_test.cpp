@@ -58,7 +58,7 @@ protected:
     Outcome interrupted(std::vector<std::string> more)
     {
         const auto begin = std::chrono::steady_clock::now();
-        picture({});
+        ZvoProcess(m_dir.path(), command({"--integrator", "path", "--spp", "2", "-o", "picture.png"})).wait();
         const auto whole_run = std::chrono::steady_clock::now() - begin;
         more.insert(more.end(), {"--integrator", "path", "--spp", "1000000"});
         ZvoProcess process(m_dir.path(), command(more));

@@ -73,14 +73,6 @@ std::vector<std::string> environmentWith(const std::vector<std::string>& more)
     return all;
 }
 
-// The command line with the tests' device; the commands that need one are those with a scene.
-std::vector<std::string> commandLine(std::vector<std::string> arguments)
-{
-    arguments.insert(arguments.begin(), "zvo");
-    const bool runs = arguments.size() > 2 && (arguments[1] == "render" || arguments[1] == "voxelize");
-    return runs ? onTestDevice(std::move(arguments)) : arguments;
-}
-
 std::filesystem::path newFile()
 {
     std::string pattern = (std::filesystem::temp_directory_path() / "zvo-output-XXXXXX").string();
@@ -97,7 +89,7 @@ std::filesystem::path newFile()
 
 ZvoProcess::ZvoProcess(const std::filesystem::path& folder, std::vector<std::string> arguments,
                        const std::vector<std::string>& environment)
-    : ZvoProcess(placeOf(ZVO_PROGRAM, "bin/zvo"), folder, commandLine(std::move(arguments)), environment)
+    : ZvoProcess(placeOf(ZVO_PROGRAM, "bin/zvo"), folder, zvoCommand(std::move(arguments)), environment)
 {
 }
 
@@ -148,6 +140,13 @@ Outcome ZvoProcess::wait()
             contentOf(m_err)};
 }
 
+std::vector<std::string> zvoCommand(std::vector<std::string> arguments)
+{
+    arguments.insert(arguments.begin(), "zvo");
+    const bool runs = arguments.size() > 2 && (arguments[1] == "render" || arguments[1] == "voxelize");
+    return runs ? onTestDevice(std::move(arguments)) : arguments;
+}
+
 std::vector<std::string> onTestDevice(std::vector<std::string> arguments)
 {
     if (std::find(arguments.begin(), arguments.end(), "--device") == arguments.end())
@@ -159,12 +158,6 @@ std::vector<std::string> onTestDevice(std::vector<std::string> arguments)
         arguments.emplace_back("--validation");
     }
     return arguments;
-}
-
-Outcome runZvo(const std::filesystem::path& folder, const std::vector<std::string>& arguments,
-               const std::vector<std::string>& environment)
-{
-    return ZvoProcess(folder, arguments, environment).wait();
 }
 
 std::string contentOf(const std::filesystem::path& file)

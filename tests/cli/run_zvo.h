@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Runs the program as a shell would.
+// Runs the program, as a shell would or in this process.
 #pragma once
 
 #include <filesystem>
@@ -46,7 +46,11 @@ private:
 /// The arguments of a run that uses a device, with that of the tests; with validation where the tests' devices have it.
 std::vector<std::string> onTestDevice(std::vector<std::string> arguments);
 
-/// Runs zvo to its end.
+/// The command line of zvo: its name, arguments and, where a scene is rendered or voxelized, the tests' device.
+std::vector<std::string> zvoCommand(std::vector<std::string> arguments);
+
+/// Runs zvo to its end in folder. With an environment, "NAME=value" beside this process's own variables, in a process
+/// of its own; otherwise here, on a device that these runs share.
 Outcome runZvo(const std::filesystem::path& folder, const std::vector<std::string>& arguments,
                const std::vector<std::string>& environment = {});
 

@@ -156,7 +156,7 @@ TEST(DynamicSequences, ShowWhatARebuildShows)
 {
     std::array sceneries = {DynamicScenery(device(), false), DynamicScenery(device(), true)};
     const auto any_commands = rc::gen::scale(0.4, rc::gen::container<std::vector<Command>>(anyCommand()));
-    test::checkProperty(test::isFull() ? 75 : 5,
+    test::checkProperty(test::isFull() ? 75 : 3,
                         [&]
                         {
                             const DynamicSetting setting = *anySetting();

@@ -127,13 +127,13 @@ void play(bool objects, int cases)
 
 TEST(EditSequences, ShowWhatAModelHas)
 {
-    play(false, 50);
+    play(false, test::isFull() ? 50 : 20);
 }
 
 // Dynamic objects are anywhere, and a brush may come after any slice of an update.
 TEST(EditSequences, WithDynamicObjectsShowWhatAModelHas)
 {
-    play(true, test::isFull() ? 40 : 4);
+    play(true, test::isFull() ? 40 : 2);
 }
 
 } // namespace

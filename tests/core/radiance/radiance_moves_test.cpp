@@ -279,7 +279,7 @@ TEST(RadianceEdits, TheSameEditsLeaveTheSameBytes)
 // with ZVO_TEST_FULL=1.
 TEST(RadianceMoves, NothingGrowsOrDrifts)
 {
-    const std::uint32_t frames = test::isFull() ? 10000 : 1000;
+    const std::uint32_t frames = test::isFull() ? 10000 : 400;
     Stage stage(32);
     std::uint64_t bytes = 0;
     std::size_t faces = 0;

@@ -4,6 +4,7 @@
 #include "oracle/morton.h"
 #include "oracle/trace.h"
 #include "support/engine_device.h"
+#include "support/sweep.h"
 #include "support/trace_octrees.h"
 #include "support/trace_rays.h"
 
@@ -46,10 +47,11 @@ TEST(Trace, HitsOfRandomVoxelsEqualTheReferenceAtEveryDepth)
 {
     std::mt19937 random(1);
     const std::uint32_t counts[] = {3, 20, 100, 400, 2049, 8000};
+    const std::uint32_t rays = test::isFull() ? 4096 : 1024;
     for (std::uint32_t depth = 1; depth <= Grid::kDepthMax; ++depth)
     {
         expectEqualsReference(test::randomCodes(depth, depth <= 6 ? counts[depth - 1] : 10201, random), depth,
-                              depth <= 6 ? 10201 : 4096);
+                              depth <= 6 ? 10201 : rays);
     }
 }
 
