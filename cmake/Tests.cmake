@@ -5,10 +5,13 @@
 # each for itself, so they are few.
 set(ZVO_SHARD_SECONDS 90)
 
-# Binaries of which scripts/test has the layers check everything: hosts of all kinds, and every kernel once. With the
-# others it leaves out core checks, which validate each pipeline's SPIR-V anew and take most of the time; lifetimes,
-# threads and synchronization are checked. scripts/test --all leaves nothing out.
-set(ZVO_CORE_CHECKED vk small example glsl deform)
+# Binaries that the validation layers always watch: hosts of all kinds, and every kernel once. tests/limited says what
+# they check of the others.
+set(ZVO_ALWAYS_VALIDATED vk small example glsl deform)
+
+# Binaries that begin before all others: one that compiles every kernel, for the driver's cache of all others, and beside
+# it those that use none. Two that begin with the same kernels would compile them twice.
+set(ZVO_FIRST small scene file oracle)
 
 # What binaries may take, and the tests that only run in their large form or are left to scripts/test --all.
 file(STRINGS ${PROJECT_SOURCE_DIR}/tests/budget.txt lines REGEX "^[a-z]")
@@ -43,7 +46,12 @@ function(zvo_add_shards name target labels seconds filter)
         math(EXPR number "${shard} + 1")
         add_test(NAME ${name}${number}
             COMMAND ${PROJECT_SOURCE_DIR}/tests/limited ${name}${number} ${cost} $<TARGET_FILE:${target}>)
-        set_tests_properties(${name}${number} PROPERTIES LABELS "${labels}" COST ${cost}
+        set(order ${cost})
+        list(TRANSFORM ZVO_FIRST APPEND . OUTPUT_VARIABLE first)
+        if(name IN_LIST first)
+            math(EXPR order "1000 + ${cost}")
+        endif()
+        set_tests_properties(${name}${number} PROPERTIES LABELS "${labels}" COST ${order}
             ENVIRONMENT "GTEST_TOTAL_SHARDS=${shards};GTEST_SHARD_INDEX=${shard};GTEST_SHUFFLE=1;GTEST_BRIEF=1;GTEST_FILTER=${filter};${ARGN}")
     endforeach()
 endfunction()
@@ -84,8 +92,8 @@ function(zvo_add_tests target labels)
     else()
         set(left_out "*")
     endif()
-    set(layers VK_LAYER_DISABLES=VK_VALIDATION_FEATURE_DISABLE_CORE_CHECKS_EXT)
-    if("stress" IN_LIST labels OR name IN_LIST ZVO_CORE_CHECKED)
+    set(layers ZVO_TEST_LAYERS_OPTIONAL=1)
+    if("stress" IN_LIST labels OR name IN_LIST ZVO_ALWAYS_VALIDATED)
         set(layers "")
     endif()
     zvo_add_shards(${name}. ${target} "${labels}" ${seconds} "${left_out}" ${layers})

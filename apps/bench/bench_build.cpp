@@ -23,12 +23,7 @@ namespace zvo::cli
 namespace
 {
 
-std::string orDash(const std::optional<Spread>& spread)
-{
-    return spread ? spreadText(*spread) : "-";
-}
-
-std::string percentOrDash(const std::optional<double>& part)
+std::string percentText(const std::optional<double>& part)
 {
     return part ? fmt::format("{:.1f} %", 100 * *part) : "-";
 }
@@ -41,21 +36,16 @@ Columns<BenchRow> buildColumns()
          [](const BenchRow& row) { return fmt::format("{:.3f}", row.perVoxel(row.geometry_bytes)); }},
         {"attributes B/voxel", 18,
          [](const BenchRow& row) { return fmt::format("{:.3f}", row.perVoxel(row.attribute_bytes)); }},
-        {"voxelize ms", 23, [](const BenchRow& row) { return orDash(row.voxelize_ms); }},
-        {"build ms", 23, [](const BenchRow& row) { return orDash(row.build_ms); }},
-        {"Mvoxels/s", 9,
-         [](const BenchRow& row)
-         {
-             const std::optional<double> rate = row.mvoxelsPerSecond();
-             return rate ? fmt::format("{:.1f}", *rate) : "-";
-         }},
-        {"compress ms", 23, [](const BenchRow& row) { return orDash(row.compress_ms); }},
-        {"of both", 7, [](const BenchRow& row) { return percentOrDash(row.compressRatio()); }},
+        {"voxelize ms", 23, [](const BenchRow& row) { return cellText(row.voxelize_ms); }},
+        {"build ms", 23, [](const BenchRow& row) { return cellText(row.build_ms); }},
+        {"Mvoxels/s", 9, [](const BenchRow& row) { return cellText(row.mvoxelsPerSecond(), 1); }},
+        {"compress ms", 23, [](const BenchRow& row) { return cellText(row.compress_ms); }},
+        {"of both", 7, [](const BenchRow& row) { return percentText(row.compressRatio()); }},
         {"DAG nodes", 9, [](const BenchRow& row) { return row.dag ? fmt::format("{}", row.dag->nodes) : "-"; }},
         {"DAG B/voxel", 11,
          [](const BenchRow& row)
          { return row.dag ? fmt::format("{:.3f}", row.perVoxel(row.dag->geometry_bytes)) : "-"; }},
-        {"of octree", 9, [](const BenchRow& row) { return percentOrDash(row.dagGeometryRatio()); }},
+        {"of octree", 9, [](const BenchRow& row) { return percentText(row.dagGeometryRatio()); }},
         peakColumn(),
     };
     columns.insert(columns.end(), more.begin(), more.end());

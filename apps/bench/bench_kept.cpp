@@ -55,11 +55,6 @@ struct KeptRow
     std::optional<double> bytes_of_voxel; // that are kept
 };
 
-std::string optionalText(const std::optional<double>& value, int digits)
-{
-    return value ? fmt::format("{:.{}f}", *value, digits) : "-";
-}
-
 const Columns<KeptRow>& keptColumns()
 {
     using Row = KeptRow;
@@ -77,9 +72,9 @@ const Columns<KeptRow>& keptColumns()
         {"FLIP", 6, [](const Row& row) { return row.quality ? fmt::format("{:.4f}", row.quality->flip) : "-"; }},
         {"frame ms", 8, [](const Row& row) { return fmt::format("{:.1f}", row.frame_ms); }},
         {"total ms", 8, [](const Row& row) { return fmt::format("{:.0f}", row.total_ms); }},
-        {"as paths", 8, [](const Row& row) { return optionalText(row.paths_of_error, 0); }},
-        {"of their time", 13, [](const Row& row) { return optionalText(row.of_their_time, 3); }},
-        {"bytes a voxel", 13, [](const Row& row) { return optionalText(row.bytes_of_voxel, 1); }},
+        {"as paths", 8, [](const Row& row) { return cellText(row.paths_of_error, 0); }},
+        {"of their time", 13, [](const Row& row) { return cellText(row.of_their_time, 3); }},
+        {"bytes a voxel", 13, [](const Row& row) { return cellText(row.bytes_of_voxel, 1); }},
     };
     return all;
 }

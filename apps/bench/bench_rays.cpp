@@ -32,16 +32,6 @@ namespace
 constexpr std::uint32_t kRaysWidth = 1920;
 constexpr std::uint32_t kRaysHeight = 1080;
 
-std::string spreadOrDash(const std::optional<Spread>& spread)
-{
-    return spread ? spreadText(*spread) : "-";
-}
-
-std::string rateOrDash(const std::optional<double>& value)
-{
-    return value ? fmt::format("{:.1f}", *value) : "-";
-}
-
 std::string hitPercent(const BenchRow& row)
 {
     const double hits = 100.0 * static_cast<double>(row.hits.value_or(0));
@@ -56,20 +46,20 @@ constexpr const char* kOfEmbree =
 std::string ratioTo(const BenchRow& row, const std::optional<double>& theirs)
 {
     const std::optional<double> ours = row.mraysPerSecond();
-    return ours && theirs && *theirs > 0 ? fmt::format("{:.2f}", *ours / *theirs) : "-";
+    return ours && theirs && *theirs > 0 ? cellText(*ours / *theirs, 2) : "-";
 }
 
 const Columns<BenchRow>& embreeColumns()
 {
     using Row = BenchRow;
     static const Columns<Row> all = {
-        {"Embree voxels", 13, [](const Row& row) { return rateOrDash(row.embree_user_mrays_per_s); }},
+        {"Embree voxels", 13, [](const Row& row) { return cellText(row.embree_user_mrays_per_s, 1); }},
         {"ratio", 5, [](const Row& row) { return ratioTo(row, row.embree_user_mrays_per_s); }},
-        {"single", 6, [](const Row& row) { return rateOrDash(row.embree_user_single_mrays_per_s); }},
+        {"single", 6, [](const Row& row) { return cellText(row.embree_user_single_mrays_per_s, 1); }},
         {"ratio", 5, [](const Row& row) { return ratioTo(row, row.embree_user_single_mrays_per_s); }},
-        {"Embree triangles", 16, [](const Row& row) { return rateOrDash(row.embree_triangle_mrays_per_s); }},
+        {"Embree triangles", 16, [](const Row& row) { return cellText(row.embree_triangle_mrays_per_s, 1); }},
         {"ratio", 5, [](const Row& row) { return ratioTo(row, row.embree_triangle_mrays_per_s); }},
-        {"single", 6, [](const Row& row) { return rateOrDash(row.embree_triangle_single_mrays_per_s); }},
+        {"single", 6, [](const Row& row) { return cellText(row.embree_triangle_single_mrays_per_s, 1); }},
     };
     return all;
 }
@@ -105,10 +95,10 @@ Columns<BenchRow> raysColumns()
 {
     Columns<BenchRow> columns = octreeColumns();
     const auto add = [&](const Columns<BenchRow>& more) { columns.insert(columns.end(), more.begin(), more.end()); };
-    add({{"trace ms", 23, [](const BenchRow& row) { return spreadOrDash(row.trace_ms); }},
-         {"trace DAG ms", 23, [](const BenchRow& row) { return spreadOrDash(row.trace_dag_ms); }},
-         {"ratio", 16, [](const BenchRow& row) { return spreadOrDash(row.trace_dag_ratio); }},
-         {"Mrays/s", 7, [](const BenchRow& row) { return rateOrDash(row.mraysPerSecond()); }},
+    add({{"trace ms", 23, [](const BenchRow& row) { return cellText(row.trace_ms); }},
+         {"trace DAG ms", 23, [](const BenchRow& row) { return cellText(row.trace_dag_ms); }},
+         {"ratio", 16, [](const BenchRow& row) { return cellText(row.trace_dag_ratio); }},
+         {"Mrays/s", 7, [](const BenchRow& row) { return cellText(row.mraysPerSecond(), 1); }},
          {"hits %", 6, hitPercent}});
     add(embreeColumns());
     columns.push_back(peakColumn());

@@ -82,6 +82,16 @@ std::string spreadText(const Spread& spread)
     return fmt::format("{:.2f} ({:.2f}-{:.2f})", spread.median, spread.min, spread.max);
 }
 
+std::string cellText(const std::optional<double>& value, int digits)
+{
+    return value ? fmt::format("{:.{}f}", *value, digits) : "-";
+}
+
+std::string cellText(const std::optional<Spread>& spread)
+{
+    return spread ? spreadText(*spread) : "-";
+}
+
 Json spreadJson(const Spread& spread)
 {
     return {{"median", spread.median}, {"min", spread.min}, {"max", spread.max}};

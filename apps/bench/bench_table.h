@@ -31,6 +31,10 @@ struct Spread
 /// "median (min-max)" with two digits after the point.
 std::string spreadText(const Spread& spread);
 
+/// The text of a cell, "-" for nothing. digits: after the point; a spread has two.
+std::string cellText(const std::optional<double>& value, int digits);
+std::string cellText(const std::optional<Spread>& spread);
+
 Json spreadJson(const Spread& spread);
 
 /// The size of the DAG of a row's octree.

@@ -32,8 +32,7 @@ std::optional<double> ratioOf(const std::optional<double>& value, const std::opt
 
 std::string ratioText(const std::optional<double>& value, const std::optional<double>& to)
 {
-    const std::optional<double> ratio = ratioOf(value, to);
-    return ratio ? fmt::format("{:.2f}", *ratio) : "-";
+    return cellText(ratioOf(value, to), 2);
 }
 
 const Columns<MotionLine>& motionColumns()

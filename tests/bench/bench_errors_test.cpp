@@ -14,19 +14,6 @@ namespace zvo::test
 namespace
 {
 
-struct WrongUse
-{
-    const char* name;
-    int exit_code;
-    std::vector<std::string> arguments;
-    std::vector<std::string> words; // in the message
-};
-
-void PrintTo(const WrongUse& use, std::ostream* stream)
-{
-    *stream << use.name;
-}
-
 const std::vector<WrongUse>& wrongUses()
 {
     static const std::vector<WrongUse> uses = {

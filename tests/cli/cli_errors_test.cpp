@@ -15,23 +15,9 @@ namespace zvo::test
 namespace
 {
 
-struct ErrorCase
+const std::vector<WrongUse>& wrongUses()
 {
-    const char* name;
-    int exit_code;
-    std::vector<std::string> arguments;
-    std::vector<std::string> words; // in the message
-    std::vector<std::string> environment;
-};
-
-void PrintTo(const ErrorCase& error_case, std::ostream* stream)
-{
-    *stream << error_case.name;
-}
-
-const std::vector<ErrorCase>& errorCases()
-{
-    static const std::vector<ErrorCase> cases = {
+    static const std::vector<WrongUse> uses = {
         {"NoCommand", 2, {}, {"render, voxelize, build, inspect, validate, convert or info"}, {}},
         {"UnknownCommand", 2, {"rendr"}, {"rendr"}, {}},
         {"UnknownFlag", 2, {"render", "cube.glb", "-o", "a.png", "--colour"}, {"--colour", "zvo render --help"}, {}},
@@ -133,14 +119,14 @@ const std::vector<ErrorCase>& errorCases()
          {"raise --memory-limit, or"},
          {}},
     };
-    return cases;
+    return uses;
 }
 
-class CliError : public testing::TestWithParam<ErrorCase>
+class CliError : public testing::TestWithParam<WrongUse>
 {
 };
 
-INSTANTIATE_TEST_SUITE_P(Cli, CliError, testing::ValuesIn(errorCases()),
+INSTANTIATE_TEST_SUITE_P(Cli, CliError, testing::ValuesIn(wrongUses()),
                          [](const auto& test_case) { return std::string(test_case.param.name); });
 
 TEST_P(CliError, IsOneLineAndAnExitCodeAndLeavesNothingBehind)

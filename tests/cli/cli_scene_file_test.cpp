@@ -386,20 +386,7 @@ TEST_F(CliSceneFile, RulesThatARebuildCannotFollowAreToldOf)
     }
 }
 
-struct WrongUse
-{
-    const char* name;
-    int exit_code;
-    std::vector<std::string> arguments;
-    std::vector<std::string> words; // in the message
-};
-
-void PrintTo(const WrongUse& use, std::ostream* stream)
-{
-    *stream << use.name;
-}
-
-const std::vector<WrongUse>& wrongUses()
+const std::vector<WrongUse>& wrongSceneFiles()
 {
     static const std::vector<WrongUse> uses = {
         {"ModelIsNotThere",
@@ -452,7 +439,7 @@ class CliSceneFileError : public CliSceneFile, public testing::WithParamInterfac
 {
 };
 
-INSTANTIATE_TEST_SUITE_P(CliSceneFile, CliSceneFileError, testing::ValuesIn(wrongUses()),
+INSTANTIATE_TEST_SUITE_P(CliSceneFile, CliSceneFileError, testing::ValuesIn(wrongSceneFiles()),
                          [](const auto& use) { return std::string(use.param.name); });
 
 TEST_P(CliSceneFileError, IsOneLineAndAnExitCodeAndLeavesNothingBehind)

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <ostream>
 #include <string>
 #include <sys/types.h>
 #include <vector>
@@ -53,6 +54,21 @@ std::vector<std::string> zvoCommand(std::vector<std::string> arguments);
 /// of its own; otherwise here, on a device that these runs share.
 Outcome runZvo(const std::filesystem::path& folder, const std::vector<std::string>& arguments,
                const std::vector<std::string>& environment = {});
+
+/// A command line that a program refuses.
+struct WrongUse
+{
+    const char* name;
+    int exit_code;
+    std::vector<std::string> arguments;
+    std::vector<std::string> words;            // in the message
+    std::vector<std::string> environment = {}; // as of ZvoProcess
+};
+
+inline void PrintTo(const WrongUse& use, std::ostream* stream)
+{
+    *stream << use.name;
+}
 
 /// Expects that a run of a program failed with exit_code, and told why in one line that has each of words; it printed
 /// nothing else.

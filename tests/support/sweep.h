@@ -24,7 +24,7 @@ inline bool isFull()
 class Sweep
 {
 public:
-    explicit Sweep(std::uint64_t step = 17)
+    explicit Sweep(std::uint64_t step = 23)
     {
         m_step = test::isFull() ? 1 : step;
         const char* start = std::getenv("ZVO_TEST_SWEEP_START");

@@ -6,6 +6,7 @@
 #include "core/file/tree_check.h"
 #include "core/tree/tree_build.h"
 #include "support/mesh_files.h"
+#include "support/sweep.h"
 #include "support/tree_samples.h"
 #include "zvo/error.h"
 
@@ -245,11 +246,16 @@ TEST(VoxFile, ChangedFilesAreReadOrRefused)
 
 TEST(VoxFile, TreesComeBackWithTheirVoxelsAndColors)
 {
+    int number = 0;
     for (const TreeSample& sample : treeSamples())
     {
         if (sample.name.ends_with("_dag") && sample.name != "random_5_with_attributes_block_dag")
         {
             continue; // each file takes a table of 2^24 colours: one DAG is enough
+        }
+        if (number++ % 3 != 0 && !test::isFull())
+        {
+            continue;
         }
         const VoxVoxels back = read(writtenVox(sample.tree));
         std::vector<std::uint64_t> codes;
