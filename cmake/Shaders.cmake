@@ -7,7 +7,13 @@ if(CMAKE_CROSSCOMPILING)
     include(ExternalProject)
     ExternalProject_Add(zvo_kernel_compiler_build
         SOURCE_DIR ${CMAKE_CURRENT_LIST_DIR}/kernel_compiler
-        CMAKE_ARGS -DCMAKE_BUILD_TYPE=Release
+        # Without what an environment says of compilers for the other machine.
+        CONFIGURE_COMMAND ${CMAKE_COMMAND} -E env --unset=CC --unset=CXX --unset=CXXFLAGS --unset=LDFLAGS
+            --unset=CMAKE_TOOLCHAIN_FILE ${CMAKE_COMMAND} -G ${CMAKE_GENERATOR} -S <SOURCE_DIR> -B <BINARY_DIR>
+            -DCMAKE_BUILD_TYPE=Release
+        BUILD_COMMAND ${CMAKE_COMMAND} --build <BINARY_DIR>
+        BUILD_ALWAYS TRUE
+        BUILD_BYPRODUCTS <BINARY_DIR>/zvo_kernel_compiler
         INSTALL_COMMAND ""
         EXCLUDE_FROM_ALL TRUE)
     ExternalProject_Get_Property(zvo_kernel_compiler_build BINARY_DIR)

@@ -8,7 +8,11 @@
 // functions when it starts, which takes longer than most kernels.
 #include <glslang/Public/ResourceLimits.h>
 #include <glslang/Public/ShaderLang.h>
+#if __has_include(<glslang/SPIRV/GlslangToSpv.h>)
 #include <glslang/SPIRV/GlslangToSpv.h>
+#else // in glslang's own sources
+#include <SPIRV/GlslangToSpv.h>
+#endif
 #include <spirv-tools/libspirv.hpp>
 #include <spirv-tools/optimizer.hpp>
 
@@ -63,6 +67,10 @@ public:
     {
         const std::filesystem::path beside = std::filesystem::path(includer).parent_path() / name;
         const std::string path = (std::filesystem::exists(beside) ? beside : m_folder / name).string();
+        if (!std::filesystem::exists(path))
+        {
+            return nullptr; // glslang says where it was asked for
+        }
         m_files.insert(path);
         auto* content = new std::string(contentOf(path));
         return new IncludeResult(path, content->data(), content->size(), content);
@@ -161,10 +169,12 @@ void compileAll(const std::string& list, const std::string& include, const std::
     Includer includer(include, files);
     std::string dependencies;
     std::ifstream lines(list);
-    for (std::string source, output, word; std::getline(lines, source);)
+    bool failed = false;
+    std::string source;
+    std::string output;
+    std::string word;
+    while (std::getline(lines, source) && std::getline(lines, output) && std::getline(lines, word))
     {
-        std::getline(lines, output);
-        std::getline(lines, word);
         files.insert(source);
         try
         {
@@ -175,12 +185,17 @@ void compileAll(const std::string& list, const std::string& include, const std::
         }
         catch (const std::exception& error)
         {
-            throw std::runtime_error(source + ": " + error.what());
+            std::fprintf(stderr, "%s: %s\n", source.c_str(), error.what());
+            failed = true;
         }
         if (dependencies.empty())
         {
             dependencies = escaped(output) + ":";
         }
+    }
+    if (failed || dependencies.empty())
+    {
+        throw std::runtime_error("kernels of " + list + " were not made");
     }
     for (const std::string& file : files)
     {
@@ -197,8 +212,12 @@ int main(int argc, char** argv)
     try
     {
         const std::vector<std::string> arguments(argv + 1, argv + argc);
+        if (arguments.size() < 3)
+        {
+            throw std::runtime_error("usage: zvo_kernel_compiler LIST INCLUDE DEPFILE [PASS...]");
+        }
         glslang::InitializeProcess();
-        compileAll(arguments.at(0), arguments.at(1), arguments.at(2), {arguments.begin() + 3, arguments.end()});
+        compileAll(arguments[0], arguments[1], arguments[2], {arguments.begin() + 3, arguments.end()});
         glslang::FinalizeProcess();
         return 0;
     }

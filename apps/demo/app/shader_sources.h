@@ -33,7 +33,7 @@ public:
     /// not compile then, in order.
     std::vector<std::string> takeChanged(const std::vector<std::string>& names);
 
-    /// Compiles kernels as the build does, several at a time; glslangValidator has to be in the path. Waits.
+    /// Compiles kernels, several at a time; glslangValidator has to be in the path. Waits.
     std::vector<CompiledShader> compile(const std::vector<std::string>& names);
 
 private:
