@@ -114,7 +114,8 @@ std::shared_ptr<vk::HeadlessDevice> openDevice(const DeviceOptions& options)
     const auto kept = std::ranges::find(*g_kept_devices, options, &KeptDevice::options);
     if (kept == g_kept_devices->end())
     {
-        return g_kept_devices->emplace_back(options, make()).device;
+        g_kept_devices->push_back({options, make()});
+        return g_kept_devices->back().device;
     }
     kept->device->device().memory().resetPeak();
     return kept->device;

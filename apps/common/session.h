@@ -26,7 +26,8 @@ namespace zvo::cli
 vk::HeadlessOptions headlessOptions(const DeviceOptions& options);
 
 /// A device for a command, with zvo's kernels. While KeptDevices exist, it is that of an earlier command with the same
-/// options, if there was one. Throws Error{Device}.
+/// options, if there was one, whose peak of memory begins anew; $ZVO_LOG and the cache's folder are those that it was
+/// made with. Throws Error{Device}.
 std::shared_ptr<vk::HeadlessDevice> openDevice(const DeviceOptions& options);
 
 /// While one exists, devices outlive their commands: so a process that runs many commands, such as tests, makes kernels
