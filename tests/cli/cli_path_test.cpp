@@ -58,7 +58,9 @@ protected:
     Outcome interrupted(std::vector<std::string> more)
     {
         const auto begin = std::chrono::steady_clock::now();
-        ZvoProcess(m_dir.path(), command({"--integrator", "path", "--spp", "2", "-o", "picture.png"})).wait();
+        const Outcome whole =
+            ZvoProcess(m_dir.path(), command({"--integrator", "path", "--spp", "2", "-o", "picture.png"})).wait();
+        EXPECT_EQ(whole.exit_code, 0) << whole.err;
         const auto whole_run = std::chrono::steady_clock::now() - begin;
         more.insert(more.end(), {"--integrator", "path", "--spp", "1000000"});
         ZvoProcess process(m_dir.path(), command(more));

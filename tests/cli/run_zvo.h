@@ -51,7 +51,8 @@ std::vector<std::string> onTestDevice(std::vector<std::string> arguments);
 std::vector<std::string> zvoCommand(std::vector<std::string> arguments);
 
 /// Runs zvo to its end in folder. With an environment, "NAME=value" beside this process's own variables, in a process
-/// of its own; otherwise here, on a device that these runs share.
+/// of its own; otherwise here, on a device that these runs share: then this process has the folder, the standard
+/// streams and the signal handlers of zvo meanwhile, and two runs cannot overlap.
 Outcome runZvo(const std::filesystem::path& folder, const std::vector<std::string>& arguments,
                const std::vector<std::string>& environment = {});
 
