@@ -18,8 +18,8 @@ inline bool isFull()
     return full != nullptr && std::string_view(full) == "1";
 }
 
-/// Chooses the calls that fail, one in each run, in tests of all failures. By default every eleventh call fails, the
-/// first of which is another one in each sweep of the same test. ZVO_TEST_SWEEP_START=N begins with call N modulo 11.
+/// Chooses the calls that fail, one in each run, in tests of all failures. By default every 23rd call fails, the first
+/// of which is another one in each sweep of the same test. ZVO_TEST_SWEEP_START=N begins with call N modulo the step.
 /// With ZVO_TEST_FULL=1 every call fails.
 class Sweep
 {

@@ -279,14 +279,15 @@ TEST(RadianceEdits, TheSameEditsLeaveTheSameBytes)
 // with ZVO_TEST_FULL=1.
 TEST(RadianceMoves, NothingGrowsOrDrifts)
 {
-    const std::uint32_t frames = test::isFull() ? 10000 : 400;
+    const std::uint32_t frames = test::isFull() ? 10000 : 800;
+    const std::uint32_t settled = std::min(500U, frames / 2);
     Stage stage(32);
     std::uint64_t bytes = 0;
     std::size_t faces = 0;
     for (std::uint32_t frame = 0; frame < frames; ++frame)
     {
         stage.moveTo(static_cast<float>(frame % 12));
-        if (frame < 500)
+        if (frame < settled)
         {
             bytes = stage.tracer().cache().bytes();
             faces = std::max(faces, frame % 50 == 49 ? facesOf(stage.tracer().cache()).size() : 0);

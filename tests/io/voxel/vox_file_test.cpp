@@ -253,7 +253,7 @@ TEST(VoxFile, TreesComeBackWithTheirVoxelsAndColors)
         {
             continue; // each file takes a table of 2^24 colours: one DAG is enough
         }
-        if (number++ % 3 != 0 && !test::isFull())
+        if (!sample.name.ends_with("_dag") && number++ % 3 != 0 && !test::isFull())
         {
             continue;
         }
