@@ -3,7 +3,10 @@
 // subgroups of each size, and prints what the driver says of their machine code, a line of JSON each, behind one on the
 // device. Nothing runs: a driver that only compiles is enough, such as that of RADV_FORCE_FAMILY. A variant is a line,
 // the name of the kernel and the values of its specialization constants. scripts/check-gpu-code runs it.
+//
+// zvo_gpu_code --tuning: prints what zvo chooses on GPUs, as the option --tuning takes it.
 #include "core/base/kernels.h"
+#include "core/base/tuning.h"
 #include "support/host_device.h"
 #include "vk/check.h"
 
@@ -15,6 +18,7 @@
 #include <memory>
 #include <sstream>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace zvo
@@ -22,6 +26,16 @@ namespace zvo
 
 namespace
 {
+
+std::string tuningOfGpus()
+{
+    vk::TuningValues values;
+    for (const TuningRow& row : tuningTable())
+    {
+        values.emplace(row.name, row.on_gpus);
+    }
+    return tuningText(values);
+}
 
 struct Variant
 {
@@ -198,6 +212,11 @@ int main(int argc, char** argv)
 {
     try
     {
+        if (argc == 2 && std::string_view(argv[1]) == "--tuning")
+        {
+            fmt::print("{}\n", zvo::tuningOfGpus());
+            return 0;
+        }
         std::vector<std::uint32_t> sizes;
         for (int i = 1; i < argc; ++i)
         {
