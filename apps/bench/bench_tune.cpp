@@ -97,7 +97,6 @@ public:
         case Tunable::BandLanes:
             return msOf(build(), {"voxelize/bands", "voxelize/rows"});
         case Tunable::AtomicBits:
-        case Tunable::SharedSums:
             return msOf(build(), {"voxelize/triangles", "voxelize/rows"});
         case Tunable::MixedSums:
             return sumMs(build());
@@ -195,7 +194,6 @@ bool canHave(const vk::Device& device, Tunable tunable, std::uint32_t value)
         return value == 0 || (report.min_subgroup_size != 0 && value >= report.min_subgroup_size &&
                               value <= report.max_subgroup_size);
     case Tunable::RowColumns:
-    case Tunable::SharedSums:
     case Tunable::MixedSums:
     case Tunable::PathForm:
     case Tunable::Loads:

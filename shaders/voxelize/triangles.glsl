@@ -7,7 +7,6 @@
 #define EDGE_IVEC3 ivec3
 #define BRICKS_CONSTANT_ID 6
 #define BRICKS_BINDING 0
-#define SHARED_SUMS_CONSTANT_ID 8
 #include "lib/arrivals.glsl"
 #include "lib/bricks.glsl"
 #include "lib/dispatch.glsl"
@@ -23,7 +22,7 @@
 #include "voxelize/sums.glsl"
 #include "voxelize/fragment.glsl"
 
-layout(constant_id = 9) const bool kSingle = false; // a chunk is one triangle, and a thread takes it
+layout(constant_id = 8) const bool kSingle = false; // a chunk is one triangle, and a thread takes it
 
 layout(local_size_x = kChunkTriangles) in;
 
@@ -245,12 +244,8 @@ void main()
     Chunk chunk = loadChunk(min(number, params.chunk_count - 1u));
     uint triangle = chunk.first_triangle + (kSingle ? 0u : gl_LocalInvocationIndex);
     Draw draw = kSingle ? loadDraw(chunk.draw) : loadDrawOfGroup(chunk.draw);
-    if (kSharesSums)
-        clearSharedSums();
     if (is_chunk && triangle < draw.triangle_count)
         takeTriangle(chunk.draw, draw, triangle);
-    if (kSharesSums)
-        flushSharedSums();
     if (kMode == kModeCoverage && is_group)
         sizeBands(group_count);
 }

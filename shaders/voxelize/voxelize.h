@@ -13,14 +13,13 @@ GPU_ENUM(RasterMode, std::uint32_t)    // kModeCoverage and so on
 
 GPU_NAMESPACE_BEGIN
 
-const uint kChunkTrianglesLog2 = 6u;
-const uint kChunkTriangles = 1u << kChunkTrianglesLog2; // triangles of one draw that one workgroup takes
-const uint kSingleTriangles = 24u;                      // a draw of fewer shares workgroups with others
-const uint kResolveGroup = 64u;                         // threads of a workgroup where one thread takes one voxel
-const uint kRowsGroup = 64u;                            // threads of a workgroup of voxelize/rows
-const uint kBandsGroup = 32u;                           // threads of a workgroup of voxelize/bands
-const uint kBandStrips = 64u;                           // strips of kBlockRows rows in a band: bounds a thread's work
-const uint kBlockRows = 8u;                             // rows of a row block: one thread each
+const uint kChunkTriangles = 64u;    // triangles of one draw that one workgroup takes
+const uint kSingleTriangles = 24u;   // a draw of fewer shares workgroups with others
+const uint kResolveGroup = 64u;      // threads of a workgroup where one thread takes one voxel
+const uint kRowsGroup = 64u;         // threads of a workgroup of voxelize/rows
+const uint kBandsGroup = 32u;        // threads of a workgroup of voxelize/bands
+const uint kBandStrips = 64u;        // strips of kBlockRows rows in a band: bounds a thread's work
+const uint kBlockRows = 8u;          // rows of a row block: one thread each
 const uint kSmallColumns = 32u;      // a triangle over more columns is rasterized by rows; one bit of a mask each
 const int kSmallExtent = 8192;       // lattice units: a triangle up to this size is rasterized in 32-bit integers
 const int kTileExtent = 1 << 26;     // lattice units: the tiles of a triangle up to this size are 4x4 columns
@@ -175,14 +174,12 @@ GPU_KERNEL_BEGIN(voxelize, triangles, Triangles, RasterParams)
     RASTER_CONSTANTS
     GPU_CONSTANT(bool, wide_keys, false)
     GPU_CONSTANT(bool, mixed, false)
-    GPU_CONSTANT(bool, shares_sums, false)
     GPU_CONSTANT(bool, single, false)
 GPU_KERNEL_END
 GPU_KERNEL_BEGIN(voxelize, triangles_int64, TrianglesInt64, RasterParams)
     RASTER_CONSTANTS
     GPU_CONSTANT(bool, wide_keys, false)
     GPU_CONSTANT(bool, mixed, false)
-    GPU_CONSTANT(bool, shares_sums, false)
     GPU_CONSTANT(bool, single, false)
 GPU_KERNEL_END
 

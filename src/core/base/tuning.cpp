@@ -33,12 +33,11 @@ constexpr TuningValue kLoads[] = {{"auto", static_cast<std::uint32_t>(vk::LoadFo
 
 // A GPU wants many short threads: the slowest one sets a pass's time. On software devices idle threads and barriers
 // cost as much as others, and threads share what they compute of a triangle. Measured on an H100: docs/performance.md.
-constexpr std::array<TuningRow, 10> kTable = {{
+constexpr std::array<TuningRow, 9> kTable = {{
     {Tunable::NodeLanes, "node-lanes", "threads that share a node", 1, 4, kNodeLanes},
     {Tunable::RowColumns, "row-columns", "columns of a row block of a big triangle", 256, 16, kRowColumns},
     {Tunable::BandLanes, "band-lanes", "threads that share a band of a big triangle", 1, 16, kBandLanes},
     {Tunable::AtomicBits, "atomic-bits", "of atomics on a voxel's sums, where there are 64", 64, 64, kAtomicBits},
-    {Tunable::SharedSums, "shared-sums", "sums of small triangles in shared memory first", 0, 0, kSwitches},
     {Tunable::MixedSums, "mixed-sums", "sums of voxels with several fragments alone", 1, 0, kSwitches},
     {Tunable::RayStack, "ray-stack", "where rays keep their stack", 0, 0, kRayStacks},
     {Tunable::PathForm, "path-form", "paths in stages, or whole in one kernel", 0, 1, kPathForms},

@@ -109,10 +109,6 @@ template <typename Kernel> Kernel rasterKernel(const RasterWalk& walk, MaterialC
     {
         kernel.mixed = walk.mode != RasterMode::Emission && walk.job.buffers.sum_form.mixed;
     }
-    if constexpr (requires { kernel.shares_sums; })
-    {
-        kernel.shares_sums = walk.mode == RasterMode::Attributes && walk.job.buffers.sum_form.shared;
-    }
     return kernel;
 }
 
@@ -222,7 +218,6 @@ RowShape RowShape::on(const vk::Device& device)
 SumForm SumForm::on(const vk::Device& device)
 {
     return {.int64 = device.isEnabled(kInt64Atomics) && tunedValue(device, Tunable::AtomicBits) == 64,
-            .shared = tunedValue(device, Tunable::SharedSums) != 0,
             .mixed = tunedValue(device, Tunable::MixedSums) != 0};
 }
 

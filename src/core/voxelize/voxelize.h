@@ -43,9 +43,8 @@ struct RowShape
 /// How fragments are added to the sums of their voxels. The sums do not depend on it.
 struct SumForm
 {
-    bool int64 = false;  // two words by one atomic; takes shaderBufferInt64Atomics
-    bool shared = false; // those of small triangles in shared memory first, a workgroup's sums in the end
-    bool mixed = false;  // sums of mixed voxels alone (gpu::MixedVoxels), where nothing else needs them
+    bool int64 = false; // two words by one atomic; takes shaderBufferInt64Atomics
+    bool mixed = false; // sums of mixed voxels alone (gpu::MixedVoxels), where nothing else needs them
 
     /// What suits a device.
     static SumForm on(const vk::Device& device);

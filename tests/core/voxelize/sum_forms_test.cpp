@@ -28,10 +28,10 @@ using test::device;
 // Those that the device can do; the first one is what all others are compared with.
 std::vector<SumForm> formsOf(const vk::Device& device)
 {
-    std::vector<SumForm> forms = {{false, false}, {false, true}};
+    std::vector<SumForm> forms(1);
     if (SumForm::on(device).int64)
     {
-        forms.insert(forms.end(), {{true, false}, {true, true}});
+        forms.push_back({.int64 = true});
     }
     return forms;
 }
@@ -68,7 +68,7 @@ Left expectSameBytes(const Scene& scene, const Grid& grid, Coverage coverage)
     Left expected;
     for (const SumForm form : formsOf(device().device()))
     {
-        SCOPED_TRACE(testing::Message() << "int64 " << form.int64 << ", shared " << form.shared);
+        SCOPED_TRACE(testing::Message() << "int64 " << form.int64);
         Left left = build(device(), scene, grid, coverage, form);
         EXPECT_TRUE(std::ranges::all_of(left.sums, [](const gpu::VoxelSums& sums) { return sums.zero == 0; }));
         if (expected.octree.empty())
@@ -123,17 +123,13 @@ void expectMixedSumsGive(const std::string& octree, const Scene& scene, const Gr
         const GpuScene uploaded = uploadScene(*builder, scene, true);
         SumForm form = SumForm::on(builder->device());
         form.mixed = true;
-        for (const bool shared : {false, true})
-        {
-            SCOPED_TRACE(testing::Message() << "default " << (builder == &device()) << ", shared " << shared);
-            BuildOptions options = {coverage, true, {}};
-            form.shared = shared;
-            options.sum_form = form;
-            const BuildResult built = buildOctree(*builder, uploaded, grid, options);
-            EXPECT_EQ(octreeSha256(*builder, built.octree), octree);
-            const auto isResolveMixed = [](const vk::PassTime& pass) { return pass.name == "voxelize/resolve_mixed"; };
-            EXPECT_EQ(std::ranges::any_of(built.passes, isResolveMixed), uploaded.emission_scale == 0.0F);
-        }
+        SCOPED_TRACE(testing::Message() << "default " << (builder == &device()));
+        BuildOptions options = {coverage, true, {}};
+        options.sum_form = form;
+        const BuildResult built = buildOctree(*builder, uploaded, grid, options);
+        EXPECT_EQ(octreeSha256(*builder, built.octree), octree);
+        const auto isResolveMixed = [](const vk::PassTime& pass) { return pass.name == "voxelize/resolve_mixed"; };
+        EXPECT_EQ(std::ranges::any_of(built.passes, isResolveMixed), uploaded.emission_scale == 0.0F);
     }
 }
 
@@ -270,13 +266,6 @@ TEST_P(SumFormsBothCoverages, OfADenseMeshLeaveTheSameBytes)
     }
 }
 
-// The triangles of a workgroup cover more voxels than it can keep in shared memory.
-TEST_P(SumFormsBothCoverages, OfTrianglesThatShareNoVoxelLeaveTheSameBytes)
-{
-    const Left left = expectSameBytes(scatteredTriangles(256, 6.0F, 250.0F), {glm::vec3(0.0F), 1.0F, 8}, GetParam());
-    EXPECT_GT(left.sums.size(), 256U * 8);
-}
-
 // Sums that would carry into the next word if normals were added with their signs.
 TEST_P(SumFormsBothCoverages, OfAsManyFragmentsAsFitAndMoreLeaveTheSameBytes)
 {
@@ -355,12 +344,10 @@ TEST(SumForms, FollowTheDevice)
         vk::HeadlessOptions options = test::deviceOptions();
         options.overrides.type = type;
         vk::HeadlessDevice device(options, zvoKernels());
-        EXPECT_FALSE(SumForm::on(device.device()).shared);
         EXPECT_EQ(SumForm::on(device.device()).mixed, std::string(type) == "cpu");
         EXPECT_EQ(SumForm::on(device.device()).int64, device.device().isEnabled("shaderBufferInt64Atomics"));
-        options.tuning = {{"atomic-bits", 32}, {"shared-sums", 1}};
+        options.tuning = {{"atomic-bits", 32}};
         vk::HeadlessDevice tuned(options, zvoKernels());
-        EXPECT_TRUE(SumForm::on(tuned.device()).shared);
         EXPECT_FALSE(SumForm::on(tuned.device()).int64);
     }
 }
