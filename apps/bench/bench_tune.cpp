@@ -96,8 +96,6 @@ public:
         case Tunable::RowColumns:
         case Tunable::BandLanes:
             return msOf(build(), {"voxelize/bands", "voxelize/rows"});
-        case Tunable::AtomicBits:
-            return msOf(build(), {"voxelize/triangles", "voxelize/rows"});
         case Tunable::MixedSums:
             return sumMs(build());
         case Tunable::RayStack:
@@ -186,8 +184,6 @@ bool canHave(const vk::Device& device, Tunable tunable, std::uint32_t value)
         return value <= lanesMax(device);
     case Tunable::BandLanes:
         return value * tunedValue(device, Tunable::RowColumns) >= RowShape::kProductMin;
-    case Tunable::AtomicBits:
-        return value == 32 || device.isEnabled("shaderBufferInt64Atomics");
     case Tunable::RayStack:
         return report.type == "cpu" || value != static_cast<std::uint32_t>(TraceStack::Private);
     case Tunable::SubgroupSize:

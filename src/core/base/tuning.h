@@ -20,7 +20,6 @@ enum class Tunable : std::uint8_t
     NodeLanes,
     RowColumns,
     BandLanes,
-    AtomicBits,
     MixedSums,
     RayStack,
     PathForm,

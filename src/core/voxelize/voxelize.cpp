@@ -217,8 +217,7 @@ RowShape RowShape::on(const vk::Device& device)
 
 SumForm SumForm::on(const vk::Device& device)
 {
-    return {.int64 = device.isEnabled(kInt64Atomics) && tunedValue(device, Tunable::AtomicBits) == 64,
-            .mixed = tunedValue(device, Tunable::MixedSums) != 0};
+    return {.int64 = device.isEnabled(kInt64Atomics), .mixed = tunedValue(device, Tunable::MixedSums) != 0};
 }
 
 VoxelizeEstimate VoxelizeEstimate::of(const GpuScene& scene, const Grid& grid, RowShape shape)
