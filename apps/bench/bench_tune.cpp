@@ -98,8 +98,6 @@ public:
             return msOf(build(), {"voxelize/bands", "voxelize/rows"});
         case Tunable::MixedSums:
             return sumMs(build());
-        case Tunable::RayStack:
-            return sumMs(picture());
         case Tunable::PathForm:
             return sumMs(paths());
         case Tunable::SubgroupSize:
@@ -184,8 +182,6 @@ bool canHave(const vk::Device& device, Tunable tunable, std::uint32_t value)
         return value <= lanesMax(device);
     case Tunable::BandLanes:
         return value * tunedValue(device, Tunable::RowColumns) >= RowShape::kProductMin;
-    case Tunable::RayStack:
-        return report.type == "cpu" || value != static_cast<std::uint32_t>(TraceStack::Private);
     case Tunable::SubgroupSize:
         return value == 0 || (report.min_subgroup_size != 0 && value >= report.min_subgroup_size &&
                               value <= report.max_subgroup_size);

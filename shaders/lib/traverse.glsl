@@ -22,18 +22,18 @@
 // The includer includes shared/trace.h and defines before:
 //   uvec2 loadHalf(uint half_index)    mask and base of half `half_index & 1` of node `half_index >> 1`
 //   uint loadEntry(uint index, uint per_word)  of a list; with kEntriesPerWord (shared/svdag.h)
-//   TRAVERSE_GROUP                     threads of the workgroup, in a compute shader that may be specialized for
-//                                      kStackShared
+//   TRAVERSE_GROUP                     optional, in compute shaders: threads of the workgroup; nodes above the current
+//                                      one are kept in shared memory then, not in registers
 //   TRAVERSE_PATHS                     optional: a constant, true where rays may begin below the root; not with kDetail
 //                                      or fewer than four levels. Then also, as trace/node_paths.h describes it:
 //   TRAVERSE_PATHS_RELATIVE            a constant, false where the root's first child is node 1
 //   uvec2 loadPath(uint cell)          the nodes that contain a cell
 //   TRAVERSE_ENTRIES                   optional: hits in a DAG come with the index of the entry that named their leaf
-//   TRAVERSE_CONSTANT_ID               first of five constant_ids, 0 by default
-//   TRAVERSE_VARIABLES                 optional: then the includer declares what the five constants stand for, by their
+//   TRAVERSE_CONSTANT_ID               first of four constant_ids, 0 by default
+//   TRAVERSE_VARIABLES                 optional: then the includer declares what the four constants stand for, by their
 //                                      names; kNodeLevels and kEntriesPerWord may be variables, set before each ray
-//   TRAVERSE_LEVELS                    a constant, at least kNodeLevels, for the registers of kStackRegisters; must be
-//                                      defined if kNodeLevels is a variable
+//   TRAVERSE_LEVELS                    a constant, at least kNodeLevels: nodes in registers; must be defined if kNodeLevels
+//                                      is a variable
 
 #ifndef TRAVERSE_VARIABLES
 #ifndef TRAVERSE_CONSTANT_ID
@@ -41,10 +41,9 @@
 #endif
 
 layout(constant_id = TRAVERSE_CONSTANT_ID) const uint kNodeLevels = 5u; // of the octree
-layout(constant_id = TRAVERSE_CONSTANT_ID + 1) const uint kStack = kStackRegisters;
-layout(constant_id = TRAVERSE_CONSTANT_ID + 2) const bool kDetail = false; // stop at small nodes
-layout(constant_id = TRAVERSE_CONSTANT_ID + 3) const uint kIterationsMax = kTraceIterationsMax;
-layout(constant_id = TRAVERSE_CONSTANT_ID + 4) const uint kEntriesPerWord = 0u; // of lists; 0: there are none
+layout(constant_id = TRAVERSE_CONSTANT_ID + 1) const bool kDetail = false; // stop at small nodes
+layout(constant_id = TRAVERSE_CONSTANT_ID + 2) const uint kIterationsMax = kTraceIterationsMax;
+layout(constant_id = TRAVERSE_CONSTANT_ID + 3) const uint kEntriesPerWord = 0u; // of lists; 0: there are none
 #endif
 
 #include "lib/unit_space.glsl"
@@ -75,9 +74,11 @@ struct Traversal
 #endif
 };
 
-uint g_saved[kSavedMax]; // nodes above the current one, by level
+// Nodes above the current one, by level.
 #ifdef TRAVERSE_GROUP
-shared uint s_saved[kStack == kStackShared ? kSavedMax * TRAVERSE_GROUP : 1u];
+shared uint s_saved[kSavedMax * TRAVERSE_GROUP];
+#else
+uint g_saved[kSavedMax]; // registers: compilers unroll the loops over it
 #endif
 
 // The times at which the planes with these bits as coordinates are crossed.
@@ -91,33 +92,26 @@ vec3 planeTimes(uvec3 planes, vec3 origin, vec3 inverse)
 // Notes the node whose cells are numbered by the mantissa bits at shift.
 void saveNode(uint shift, uint node)
 {
-    uint level = (kRootShift - shift) >> 1;
-    if (kStack == kStackRegisters)
-        [[unroll]] for (uint k = 1u; k < TRAVERSE_LEVELS - 1u; ++k)
-            g_saved[k] = shift == kRootShift - 2u * k ? node : g_saved[k];
-    else if (kStack == kStackPrivate)
-        g_saved[level] = node;
 #ifdef TRAVERSE_GROUP
-    else
-        s_saved[level * TRAVERSE_GROUP + gl_LocalInvocationIndex] = node;
+    s_saved[((kRootShift - shift) >> 1) * TRAVERSE_GROUP + gl_LocalInvocationIndex] = node;
+#else
+    [[unroll]] for (uint k = 1u; k < TRAVERSE_LEVELS - 1u; ++k)
+        g_saved[k] = shift == kRootShift - 2u * k ? node : g_saved[k];
 #endif
 }
 
 // The node that was noted; the root for shifts outside of the octree.
 uint savedNode(uint shift)
 {
-    uint level = min((kRootShift - shift) >> 1, kSavedMax - 1u);
-    uint node = 0u;
-    if (kStack == kStackRegisters)
-        [[unroll]] for (uint k = 1u; k < TRAVERSE_LEVELS - 1u; ++k)
-            node = shift == kRootShift - 2u * k ? g_saved[k] : node;
-    else if (kStack == kStackPrivate)
-        node = g_saved[level];
 #ifdef TRAVERSE_GROUP
-    else
-        node = s_saved[level * TRAVERSE_GROUP + gl_LocalInvocationIndex];
-#endif
+    uint level = min((kRootShift - shift) >> 1, kSavedMax - 1u);
+    return s_saved[level * TRAVERSE_GROUP + gl_LocalInvocationIndex];
+#else
+    uint node = 0u;
+    [[unroll]] for (uint k = 1u; k < TRAVERSE_LEVELS - 1u; ++k)
+        node = shift == kRootShift - 2u * k ? g_saved[k] : node;
     return node;
+#endif
 }
 
 #ifdef TRAVERSE_PATHS
@@ -207,8 +201,9 @@ Traversal traverse(vec3 ray_origin, vec3 ray_inverse, float t_min, float t_max, 
     for (; go;)
     {
         ++iterations;
-        if (kStack == kStackRegisters)
-            saveNode(shift, node);
+#ifndef TRAVERSE_GROUP
+        saveNode(shift, node);
+#endif
 
         // Find the cell of the node that the last event led to.
         vec3 crossed = uintBitsToFloat(limits);
@@ -267,8 +262,10 @@ Traversal traverse(vec3 ray_origin, vec3 ray_inverse, float t_min, float t_max, 
         }
 
         // Down, or on.
-        if (kStack != kStackRegisters && occupied)
+#ifdef TRAVERSE_GROUP
+        if (occupied)
             saveNode(shift, node);
+#endif
         stopped = kDetail && occupied && ends;
         limits.x = occupied ? limits.x : leave_bits + 1u;
         limits.y = occupied ? limits.y : x_first ? leave_bits : leave_bits + 1u;

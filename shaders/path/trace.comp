@@ -33,14 +33,14 @@
 #include "path/strip.glsl"
 #include "path/sum.glsl"
 
-layout(constant_id = 5) const bool kOrthographic = false;
-layout(constant_id = 6) const uint kFormat = kFormat8;      // of attributes
-layout(constant_id = 7) const bool kEmission = false;       // there are emissive voxels
-layout(constant_id = 8) const uint kSampling = kSampleBoth; // how light is found
-layout(constant_id = 9) const bool kByPower = false;        // lights are chosen whatever their place
-layout(constant_id = 10) const bool kRoulette = false;
-layout(constant_id = 11) const bool kOverlays = false; // of a DAG
-layout(constant_id = 12) const bool kFeatures = false;
+layout(constant_id = 4) const bool kOrthographic = false;
+layout(constant_id = 5) const uint kFormat = kFormat8;      // of attributes
+layout(constant_id = 6) const bool kEmission = false;       // there are emissive voxels
+layout(constant_id = 7) const uint kSampling = kSampleBoth; // how light is found
+layout(constant_id = 8) const bool kByPower = false;        // lights are chosen whatever their place
+layout(constant_id = 9) const bool kRoulette = false;
+layout(constant_id = 10) const bool kOverlays = false; // of a DAG
+layout(constant_id = 11) const bool kFeatures = false;
 
 layout(local_size_x = kPathGroup) in;
 layout(push_constant, scalar) uniform Push
@@ -48,7 +48,6 @@ layout(push_constant, scalar) uniform Push
     PathTraceParams params;
 };
 
-#define TRAVERSE_GROUP kPathGroup
 #include "lib/octree_loads.glsl"
 #include "lib/traverse.glsl"
 #include "lib/ranks.glsl"
@@ -109,9 +108,8 @@ Path beginPath(uint number)
 Traversal traceRay(Ray ray, uvec3 from)
 {
     // No ray needs what another one has saved: the registers are free in between.
-    if (kStack == kStackRegisters)
-        [[unroll]] for (uint k = 0u; k < kSavedMax; ++k)
-            g_saved[k] = 0u;
+    [[unroll]] for (uint k = 0u; k < kSavedMax; ++k)
+        g_saved[k] = 0u;
     bool valid = isTraceable(ray) && uint64_t(g_halves) != 0ul;
     return traverse(valid ? ray.origin : vec3(0.0), valid ? ray.inverse_direction : vec3(1.0), valid ? ray.t_min : 1.0,
                     valid ? ray.t_max : 0.0, vec2(0.0), from, kIterationsMax);

@@ -67,11 +67,6 @@ const float kTraceTimeMax = 3.40282347e+38f; // largest float
 const uint kTraceIterationsMax = 40000u;
 const uint kTraceRoundsMax = 16u; // of rays through one octree; depth 17 needs 14
 
-// Where a ray keeps the nodes above the current one: specialization constant of all kernels that trace.
-const uint kStackRegisters = 0u; // selects; on lavapipe faster by half than shared memory
-const uint kStackPrivate = 1u;   // an indexed private array: for CPUs alone
-const uint kStackShared = 2u;    // shared memory: 8 words a thread
-
 GPU_NAMESPACE_END
 
 #endif

@@ -29,9 +29,6 @@ uint kEntriesPerWord;
 #endif
 #ifdef ZVO_GROUP
 #define TRAVERSE_GROUP ZVO_GROUP
-const uint kStack = kStackShared;
-#else
-const uint kStack = kStackRegisters;
 #endif
 #ifdef ZVO_DETAIL
 const bool kDetail = true;

@@ -12,8 +12,8 @@
 #include "lib/node.glsl"
 #include "lib/ray.glsl"
 
-layout(constant_id = 5) const bool kOrthographic = false;
-layout(constant_id = 6) const uint kFormat = kFormat8; // of attributes; kFormatNone where hits have no index of any
+layout(constant_id = 4) const bool kOrthographic = false;
+layout(constant_id = 5) const uint kFormat = kFormat8; // of attributes; kFormatNone where hits have no index of any
 
 layout(local_size_x = kArgsGroup) in;
 layout(push_constant, scalar) uniform Push
@@ -21,7 +21,6 @@ layout(push_constant, scalar) uniform Push
     InspectParams params;
 };
 
-#define TRAVERSE_GROUP kArgsGroup
 #include "lib/octree_half.glsl"
 #include "lib/traverse.glsl"
 

@@ -14,11 +14,11 @@
 #include "lib/ray.glsl"
 #include "lib/surface_normal.glsl"
 
-layout(constant_id = 5) const bool kOrthographic = false;
-layout(constant_id = 6) const uint kFormat = kFormat8; // of attributes
-layout(constant_id = 7) const bool kPaths = false; // begin below the root
-layout(constant_id = 8) const bool kPathsRelative = false; // the octree does not stand by levels
-layout(constant_id = 9) const bool kShadows = true; // trace/shadow has run
+layout(constant_id = 4) const bool kOrthographic = false;
+layout(constant_id = 5) const uint kFormat = kFormat8; // of attributes
+layout(constant_id = 6) const bool kPaths = false; // begin below the root
+layout(constant_id = 7) const bool kPathsRelative = false; // the octree does not stand by levels
+layout(constant_id = 8) const bool kShadows = true; // trace/shadow has run
 
 layout(local_size_x = kTilePixels) in;
 layout(push_constant, scalar) uniform Push
@@ -26,7 +26,6 @@ layout(push_constant, scalar) uniform Push
     OcclusionParams params;
 };
 
-#define TRAVERSE_GROUP kTilePixels
 #include "lib/octree_loads.glsl"
 #include "trace/path_loads.glsl"
 #include "lib/traverse.glsl"

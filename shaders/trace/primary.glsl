@@ -9,13 +9,13 @@
 #include "lib/hit.glsl"
 #include "lib/ray.glsl"
 
-layout(constant_id = 5) const bool kOrthographic = false;
-layout(constant_id = 6) const bool kCountIterations = false;
-layout(constant_id = 7) const bool kPaths = false; // begin below the root
-layout(constant_id = 8) const bool kPathsRelative = false; // the octree does not stand by levels
-layout(constant_id = 9) const bool kOverlays = false;  // the upper nodes of a DAG may be those of an overlay
-layout(constant_id = 10) const bool kResume = false; // only rays that the round before left unfinished
-layout(constant_id = 11) const bool kMore = false;     // another round follows
+layout(constant_id = 4) const bool kOrthographic = false;
+layout(constant_id = 5) const bool kCountIterations = false;
+layout(constant_id = 6) const bool kPaths = false; // begin below the root
+layout(constant_id = 7) const bool kPathsRelative = false; // the octree does not stand by levels
+layout(constant_id = 8) const bool kOverlays = false;  // the upper nodes of a DAG may be those of an overlay
+layout(constant_id = 9) const bool kResume = false; // only rays that the round before left unfinished
+layout(constant_id = 10) const bool kMore = false;     // another round follows
 
 layout(local_size_x = kTilePixels) in;
 layout(push_constant, scalar) uniform Push
@@ -30,7 +30,6 @@ layout(push_constant, scalar) uniform Push
 #ifdef PRIMARY_RANKS
 #define TRAVERSE_ENTRIES
 #endif
-#define TRAVERSE_GROUP kTilePixels
 #include "lib/octree_loads.glsl"
 #include "trace/path_loads.glsl"
 #include "lib/traverse.glsl"

@@ -9,9 +9,9 @@
 #include "lib/ray.glsl"
 #include "lib/ray_words.glsl"
 
-layout(constant_id = 5) const bool kResume = false; // only rays that the round before left unfinished
-layout(constant_id = 6) const bool kMore = false;     // another round follows
-layout(constant_id = 7) const bool kCounted = false;  // the device knows how many rays there are
+layout(constant_id = 4) const bool kResume = false; // only rays that the round before left unfinished
+layout(constant_id = 5) const bool kMore = false;     // another round follows
+layout(constant_id = 6) const bool kCounted = false;  // the device knows how many rays there are
 
 layout(local_size_x = kRaysGroup) in;
 layout(push_constant, scalar) uniform Push
@@ -19,7 +19,6 @@ layout(push_constant, scalar) uniform Push
     RaysParams params;
 };
 
-#define TRAVERSE_GROUP kRaysGroup
 #include "lib/octree_loads.glsl"
 #include "lib/traverse.glsl"
 #include "lib/rounds.glsl"

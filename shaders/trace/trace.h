@@ -9,7 +9,6 @@
 #include "shared/trace.h"
 
 GPU_ENUM(AttributeFormat, std::uint32_t) // kFormat8 and so on (shared/attribute_formats.h)
-GPU_ENUM(TraceStack, std::uint32_t)      // kStackRegisters and so on (shared/trace.h)
 
 GPU_NAMESPACE_BEGIN
 
@@ -27,7 +26,6 @@ const float kTileDead = kTraceTimeMax; // a tile's start where no ray of the til
 // The constants of every kernel with lib/traverse.glsl.
 #define TRAVERSE_CONSTANTS                                                                                             \
     GPU_CONSTANT(uint, node_levels, 5u)                                                                                \
-    GPU_CONSTANT(TraceStack, stack, kStackRegisters)                                                                   \
     GPU_CONSTANT(bool, detail, false)                                                                                  \
     GPU_CONSTANT(uint, iterations_max, kTraceIterationsMax)                                                            \
     GPU_CONSTANT(uint, entries_per_word, 0u)

@@ -26,19 +26,18 @@ KernelNames tracePictures(const DeviceTree& tree)
     NodePaths paths(device().device(), tree.isDag());
     TraceBuffers buffers(device().device(), 17, 9);
     addNames(names, device().run([&](vk::FrameGraph& graph) { buildNodePaths(graph, tree, paths); }));
-    for (const TraceStack stack : {TraceStack::Registers, TraceStack::Private, TraceStack::Shared})
+    for (const bool beam : {true, false})
     {
-        if (tree.isDag() && stack != TraceStack::Registers)
+        if (tree.isDag() && !beam)
         {
-            continue; // lists and stacks are independent, and compiling each variant takes time
+            continue; // lists and beams are independent, and compiling each variant takes time
         }
         for (const View shown : {View::Color, View::Iterations})
         {
             TraceOptions options;
             options.view = shown;
-            options.stack = stack;
             options.occlusion_rays = 2;
-            options.beam = stack != TraceStack::Private;
+            options.beam = beam;
             const TraceCamera camera = traceCamera(view, tree.grid, buffers.height);
             addNames(names,
                      device().run([&](vk::FrameGraph& graph) { trace(graph, tree, paths, camera, options, buffers); }));

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Traces millions of rays and compares them with two references (oracle/trace.h bit for bit, oracle/ray_bounds.h); rays
 // out of closed shells, which must hit; and pictures by every path of the tracer. Prints a checksum of all hits, which
-// must not depend on stack or subgroup size.
+// must not depend on the subgroup size.
 //
 //   zvo_ray_stress [--rays N] [--seed S]    N random rays, N aimed ones, N / 4 out of closed shells
 #include "core/base/kernels.h"
@@ -18,7 +18,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <charconv>
 #include <cstdlib>
 #include <functional>
@@ -31,7 +30,6 @@ namespace
 {
 
 constexpr std::uint64_t kBatch = 1U << 17;
-constexpr std::array kStacks = {TraceStack::Registers, TraceStack::Private, TraceStack::Shared};
 
 struct Options
 {
@@ -72,8 +70,8 @@ using MakeRay = std::function<StressRay(Random&)>;
 using Check = std::function<void(const StressRay&, const std::optional<test::DeviceHit>&)>;
 
 // Traces count rays through octree, checks each hit and adds it to sum.
-void traceBatch(vk::HeadlessDevice& device, const DeviceTree& octree, TraceStack stack, std::uint64_t count,
-                std::uint64_t seed, const MakeRay& make_ray, const Check& check, Sha256& sum)
+void traceBatch(vk::HeadlessDevice& device, const DeviceTree& octree, std::uint64_t count, std::uint64_t seed,
+                const MakeRay& make_ray, const Check& check, Sha256& sum)
 {
     std::vector<StressRay> rays(count);
     std::vector<gpu::Ray> device_rays(count);
@@ -87,8 +85,6 @@ void traceBatch(vk::HeadlessDevice& device, const DeviceTree& octree, TraceStack
                        device_rays[i] = rays[i].device;
                    }
                });
-    TraceOptions options;
-    options.stack = stack;
     const vk::BufferOf<gpu::Ray> ray_buffer = device.makeBuffer("rays", std::span<const gpu::Ray>(device_rays));
     vk::BufferOf<gpu::Hit> hit_buffer(device.device(), "hits", count);
     vk::BufferOf<gpu::DispatchArgs> rounds(device.device(), "rounds", gpu::kTraceRoundsMax);
@@ -97,7 +93,7 @@ void traceBatch(vk::HeadlessDevice& device, const DeviceTree& octree, TraceStack
         [&](vk::FrameGraph& graph)
         {
             graph.fill(status, 0);
-            traceRays(graph, octree, ray_buffer, hit_buffer, rounds, status, options);
+            traceRays(graph, octree, ray_buffer, hit_buffer, rounds, status, {});
         });
     const std::uint32_t capped = device.download(status).at(0).capped_rays;
     if (capped != 0)
@@ -121,7 +117,7 @@ void traceBatch(vk::HeadlessDevice& device, const DeviceTree& octree, TraceStack
     sum.update(std::as_bytes(std::span(hits)));
 }
 
-// Traces count rays in all, spread over trees and stacks.
+// Traces count rays in all, spread over trees.
 void traceTrees(vk::HeadlessDevice& device, const std::vector<StressTree>& trees, const Options& options, bool aimed,
                 Sha256& sum)
 {
@@ -136,13 +132,12 @@ void traceTrees(vk::HeadlessDevice& device, const std::vector<StressTree>& trees
         const Check check = [&](const StressRay& ray, const std::optional<test::DeviceHit>& hit)
         { judge.check(ray, hit, octree.grid.nodeLevels()); };
         std::uint64_t batch = 0;
-        const std::uint64_t size = std::min(kBatch, (per_tree + kStacks.size() - 1) / kStacks.size());
+        const std::uint64_t size = std::min(kBatch, per_tree);
         for (std::uint64_t done = 0; done < per_tree; done += size, ++batch)
         {
             const std::uint64_t seed =
                 options.seed * 1000003 + (&tree - trees.data()) * 2003 + batch * 2 + (aimed ? 1 : 0);
-            traceBatch(device, octree, kStacks[batch % kStacks.size()], std::min(size, per_tree - done), seed, make_ray,
-                       check, sum);
+            traceBatch(device, octree, std::min(size, per_tree - done), seed, make_ray, check, sum);
         }
     }
 }
@@ -199,10 +194,10 @@ void traceShells(vk::HeadlessDevice& device, const Options& options, Sha256& sum
             }
         };
         std::uint64_t batch = 0;
-        const std::uint64_t size = std::min(kBatch, (per_shell + kStacks.size() - 1) / kStacks.size());
+        const std::uint64_t size = std::min(kBatch, per_shell);
         for (std::uint64_t done = 0; done < per_shell; done += size, ++batch)
         {
-            traceBatch(device, octree, kStacks[batch % kStacks.size()], std::min(size, per_shell - done),
+            traceBatch(device, octree, std::min(size, per_shell - done),
                        options.seed * 7919 + (&shell - shells.data()) * 4001 + batch, make_ray, check, sum);
         }
     }
@@ -251,7 +246,7 @@ bool sameHits(const Picture& a, const Picture& b)
                       { return x.index == y.index && x.t == y.t && x.where == y.where; });
 }
 
-// Takes pictures with and without the beam, with every stack. Returns their number.
+// Takes pictures with and without the beam. Returns their number.
 std::uint32_t takePictures(vk::HeadlessDevice& device, const std::vector<StressTree>& trees, Sha256& sum)
 {
     std::uint32_t count = 0;
@@ -267,30 +262,26 @@ std::uint32_t takePictures(vk::HeadlessDevice& device, const std::vector<StressT
         {
             const TraceCamera camera = traceCamera(view, octree.grid, 217);
             std::optional<Picture> first;
-            for (const TraceStack stack : kStacks)
+            for (const bool with_beam : {false, true})
             {
-                for (const bool with_beam : {false, true})
+                TraceOptions options;
+                options.beam = with_beam;
+                options.view = View::Iterations;
+                Picture picture = takePicture(device, octree, camera, options);
+                ++count;
+                // Each cell on the path is left once, and entered by at most one descent for each level.
+                const std::uint32_t bound = (3 * octree.grid.rootResolution() + 1) * (octree.grid.nodeLevels() + 1);
+                const bool wrong = (first && !sameHits(*first, picture)) || picture.iterations_max > bound;
+                if (wrong)
                 {
-                    TraceOptions options;
-                    options.stack = stack;
-                    options.beam = with_beam;
-                    options.view = View::Iterations;
-                    Picture picture = takePicture(device, octree, camera, options);
-                    ++count;
-                    // Each cell on the path is left once, and entered by at most one descent for each level.
-                    const std::uint32_t bound = (3 * octree.grid.rootResolution() + 1) * (octree.grid.nodeLevels() + 1);
-                    const bool wrong = (first && !sameHits(*first, picture)) || picture.iterations_max > bound;
-                    if (wrong)
-                    {
-                        ++tally().wrong;
-                        fmt::print("WRONG: a picture of {} differs, or takes too many steps ({})\n", tree.name,
-                                   picture.iterations_max);
-                    }
-                    if (!first)
-                    {
-                        sum.update(std::as_bytes(std::span(picture.hits)));
-                        first = std::move(picture);
-                    }
+                    ++tally().wrong;
+                    fmt::print("WRONG: a picture of {} differs, or takes too many steps ({})\n", tree.name,
+                               picture.iterations_max);
+                }
+                if (!first)
+                {
+                    sum.update(std::as_bytes(std::span(picture.hits)));
+                    first = std::move(picture);
                 }
             }
         }

@@ -87,7 +87,6 @@ void TreeComparison::pictures(const ViewCamera& close)
     options = {};
     for (std::size_t i = 1; i < views.size(); i += 3)
     {
-        options.stack = i % 2 == 0 ? TraceStack::Private : TraceStack::Registers;
         options.beam = i % 4 != 1;
         picture(views[i], options);
     }

@@ -20,7 +20,6 @@ constexpr TuningValue kRowColumns[] = {{"16", 16},   {"32", 32},   {"64", 64},  
                                        {"256", 256}, {"512", 512}, {"1024", 1024}};
 constexpr TuningValue kBandLanes[] = {{"1", 1}, {"2", 2}, {"4", 4}, {"8", 8}, {"16", 16}, {"32", 32}};
 constexpr TuningValue kSwitches[] = {{"off", 0}, {"on", 1}};
-constexpr TuningValue kRayStacks[] = {{"registers", 0}, {"private", 1}, {"shared", 2}};
 constexpr TuningValue kPathForms[] = {{"stages", 0}, {"kernel", 1}};
 constexpr TuningValue kSubgroupSizes[] = {{"auto", 0}, {"4", 4},   {"8", 8},    {"16", 16},
                                           {"32", 32},  {"64", 64}, {"128", 128}};
@@ -32,12 +31,11 @@ constexpr TuningValue kLoads[] = {{"auto", static_cast<std::uint32_t>(vk::LoadFo
 
 // A GPU wants many short threads: the slowest one sets a pass's time. On software devices idle threads and barriers
 // cost as much as others, and threads share what they compute of a triangle. Measured on an H100: docs/performance.md.
-constexpr std::array<TuningRow, 8> kTable = {{
+constexpr std::array<TuningRow, 7> kTable = {{
     {Tunable::NodeLanes, "node-lanes", "threads that share a node", 1, 4, kNodeLanes},
     {Tunable::RowColumns, "row-columns", "columns of a row block of a big triangle", 256, 16, kRowColumns},
     {Tunable::BandLanes, "band-lanes", "threads that share a band of a big triangle", 1, 16, kBandLanes},
     {Tunable::MixedSums, "mixed-sums", "sums of voxels with several fragments alone", 1, 0, kSwitches},
-    {Tunable::RayStack, "ray-stack", "where rays keep their stack", 0, 0, kRayStacks},
     {Tunable::PathForm, "path-form", "paths in stages, or whole in one kernel", 0, 1, kPathForms},
     {Tunable::SubgroupSize, vk::kSubgroupSizeName, "threads of a subgroup", 0, 0, kSubgroupSizes},
     {Tunable::Loads, vk::kLoadsName, "how kernels that have both forms reach their buffers", 0, 0, kLoads},

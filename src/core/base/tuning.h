@@ -21,7 +21,6 @@ enum class Tunable : std::uint8_t
     RowColumns,
     BandLanes,
     MixedSums,
-    RayStack,
     PathForm,
     SubgroupSize,
     Loads

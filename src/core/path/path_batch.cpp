@@ -33,13 +33,6 @@ void takeList(vk::FrameGraph& graph, const Kernel& kernel, std::uint32_t list, c
     pass.dispatchIndirect(batch.lists, listArgs(bounce, list), params, divideUp(light.path_count, gpu::kPathGroup));
 }
 
-TraceOptions traceOptions(const PathLight& light)
-{
-    TraceOptions options;
-    options.stack = light.stack;
-    return options;
-}
-
 } // namespace
 
 PathBatch::PathBatch(vk::Device& device, std::uint64_t path_count, std::size_t list_count, std::uint32_t set_count)
@@ -92,8 +85,7 @@ void tracePaths(vk::FrameGraph& graph, const PathLight& light, PathBatch& batch,
                 std::uint32_t bounce)
 {
     const RayListLength length = listLength(batch.lists, bounce, gpu::kListPaths);
-    traceRays(graph, light.tree, batch.rays.at(paths), batch.hits, batch.rounds, light.status, traceOptions(light),
-              &length);
+    traceRays(graph, light.tree, batch.rays.at(paths), batch.hits, batch.rounds, light.status, {}, &length);
 }
 
 void addMetLight(vk::FrameGraph& graph, const PathLight& light, PathBatch& batch, std::size_t paths,
@@ -123,8 +115,7 @@ void addChosenLight(vk::FrameGraph& graph, const PathLight& light, PathBatch& ba
                  gpu::kListVoxelLights, light, batch, paths, bounce);
     }
     const RayListLength shadows = listLength(batch.lists, bounce, gpu::kListShadows);
-    traceRays(graph, light.tree, batch.shadow_rays, batch.hits, batch.rounds, light.status, traceOptions(light),
-              &shadows);
+    traceRays(graph, light.tree, batch.shadow_rays, batch.hits, batch.rounds, light.status, {}, &shadows);
     vk::Pass pass = graph.addPass(gpu::path::Connect{.notes = light.first_noted.has_value()});
     gpu::PathConnectParams params{};
     params.hits = pass.read(batch.hits);

@@ -257,8 +257,6 @@ void PathTracer::traceInOneKernel(vk::FrameGraph& graph, const Batch& batch)
     const DeviceTree& tree = batch.tree;
     const PathOptions& options = batch.options;
     const bool emits = hasEmission(tree);
-    TraceOptions trace;
-    trace.stack = options.stack;
     const gpu::path::Trace kernel{.orthographic = batch.camera.orthographic,
                                   .format = tree.attributeFormat(),
                                   .emission = emits,
@@ -267,7 +265,7 @@ void PathTracer::traceInOneKernel(vk::FrameGraph& graph, const Batch& batch)
                                   .roulette = options.roulette,
                                   .overlays = tree.hasOverlays(),
                                   .features = options.features};
-    vk::Pass pass = graph.addPass(traversing(kernel, graph.device(), tree, trace));
+    vk::Pass pass = graph.addPass(traversing(kernel, tree, {}));
     gpu::PathTraceParams params{};
     params.tree = pass.read(m_lights.table());
     params.nodes = pass.read(tree.nodes);
@@ -318,9 +316,8 @@ void PathTracer::traceInStages(vk::FrameGraph& graph, const Batch& batch)
         params.sample_index = m_sample_count;
         pass.dispatch(batch.pixel_count, params);
     }
-    const PathLight light = {batch.tree,       batch.environment, m_lights,
-                             m_pixels->status, options.sampling,  options.lights_by_power,
-                             options.stack,    m_sample_count,    batch.pixel_count};
+    const PathLight light = {batch.tree,       batch.environment,       m_lights,       m_pixels->status,
+                             options.sampling, options.lights_by_power, m_sample_count, batch.pixel_count};
     for (std::uint32_t bounce = 0; bounce <= bounces; ++bounce)
     {
         tracePaths(graph, light, paths, bounce % kPathLists, bounce);

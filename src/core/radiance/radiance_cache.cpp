@@ -142,7 +142,6 @@ void RadianceCache::update(vk::FrameGraph& graph, const DeviceTree& tree, Device
                                 .camera = camera,
                                 .seen = seen,
                                 .seed = options.seed,
-                                .stack = options.stack,
                                 .number = frame,
                                 .moves = isSince(m_move_frame, frame, gpu::kMovedFrames),
                                 .window = isSince(m_change_frame, frame, kChangedFrames)

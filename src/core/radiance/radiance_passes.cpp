@@ -356,7 +356,6 @@ void sampleFaces(vk::FrameGraph& graph, const RadianceFrame& frame)
                                  .environment = frame.environment,
                                  .lights = frame.lights,
                                  .status = frame.status,
-                                 .stack = frame.stack,
                                  .sample_index = frame.number,
                                  .path_count = frame.lists.faces,
                                  .first_noted = ray == 0 ? frame.firstMoving() : std::nullopt};

@@ -22,7 +22,6 @@ struct RadianceOptions
     std::uint32_t faces = 1U << 14;             // the most that a frame takes, by up to two rays and two shadow rays
     std::uint32_t window = gpu::kKeptWeightMax; // the most samples that a mean counts
     std::uint32_t seed = 0;
-    std::optional<TraceStack> stack = std::nullopt; // as in TraceOptions
 
     bool operator==(const RadianceOptions&) const = default;
 };
@@ -72,10 +71,9 @@ struct RadianceFrame
     const TraceCamera& camera;
     const TraceBuffers& seen; // filled by tracePrimary() of the same tree and camera without a level of detail
     std::uint32_t seed;
-    std::optional<TraceStack> stack; // as in TraceOptions
-    std::uint32_t number;            // 0: nothing is kept yet
-    bool moves;                      // something has moved lately
-    std::uint32_t window;            // the most samples that means count
+    std::uint32_t number; // 0: nothing is kept yet
+    bool moves;           // something has moved lately
+    std::uint32_t window; // the most samples that means count
 
     /// The index of attributes from which on voxels are those of overlays, if there may be any.
     [[nodiscard]] std::optional<std::uint32_t> firstMoving() const

@@ -34,9 +34,7 @@ void RadianceTracer::forget()
 void RadianceTracer::update(vk::FrameGraph& graph, const DeviceTree& tree, DeviceEnvironment& environment,
                             const TraceCamera& camera, const RadianceOptions& options)
 {
-    TraceOptions trace;
-    trace.stack = options.stack;
-    m_tracer.tracePrimary(graph, tree, camera, trace);
+    m_tracer.tracePrimary(graph, tree, camera, {});
     m_cache.update(graph, tree, environment, camera, m_tracer.buffers(), options);
 }
 

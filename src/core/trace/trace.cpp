@@ -61,7 +61,7 @@ void tracePrimary(vk::FrameGraph& graph, const DeviceTree& tree, const NodePaths
     const bool has_ranks = options.beam && wants_ranks && !options.hasDetail() && hasRankTable(tree, paths);
     const auto primary = [&]<typename Kernel>(Kernel kernel)
     {
-        kernel = beginningOnPaths(traversing(kernel, graph.device(), tree, options), tree, options);
+        kernel = beginningOnPaths(traversing(kernel, tree, options), tree, options);
         kernel.orthographic = camera.orthographic;
         kernel.count_iterations = count_iterations;
         kernel.overlays = has_ranks && tree.hasOverlays();
@@ -146,7 +146,7 @@ void traceRays(vk::FrameGraph& graph, const DeviceTree& tree, const vk::BufferOf
     };
     const std::uint64_t groups = divideUp(rays.count(), gpu::kRaysGroup);
     const gpu::trace::Rays kernel{.counted = length != nullptr};
-    addRounds(graph, traversing(kernel, graph.device(), tree, options), roundsFor(tree, options), rounds,
+    addRounds(graph, traversing(kernel, tree, options), roundsFor(tree, options), rounds,
               divideUp(groups, gpu::kTilesFold) * gpu::kTilesFold, declare,
               [&](auto& pass, const gpu::RaysParams& params) { dispatchList(pass, params, rays.count(), length); });
     if (tree.isDag() && tree.hasAttributes())

@@ -10,19 +10,9 @@
 #include "zvo/types.h"
 
 #include <cstdint>
-#include <optional>
 
 namespace zvo
 {
-
-/// Where a ray keeps the nodes above the current one. The choice does not change what is hit. Private is for CPUs: on
-/// other devices Registers is used in its place.
-enum class TraceStack : std::uint32_t
-{
-    Registers = gpu::kStackRegisters,
-    Private = gpu::kStackPrivate,
-    Shared = gpu::kStackShared,
-};
 
 /// How a picture stores its pixels; alpha is always 1. All formats but Half hold sRGB codes, tone-mapped in lit
 /// pictures.
@@ -48,7 +38,6 @@ inline constexpr std::uint32_t kOcclusionRaysMax = 64;
 struct TraceOptions
 {
     View view = TraceInfo().view;
-    std::optional<TraceStack> stack = std::nullopt; // not given: Tunable::RayStack
     bool beam = true; // begin at what a tile's rays may hit, and below the root; the picture is the same
     bool shadows = TraceInfo().shadows;
     glm::dvec3 to_sun = {TraceInfo().to_sun[0], TraceInfo().to_sun[1], TraceInfo().to_sun[2]};

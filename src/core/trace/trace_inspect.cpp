@@ -14,8 +14,8 @@ void inspectPixel(vk::FrameGraph& graph, const DeviceTree& tree, const TraceCame
         return;
     }
     const AttributeFormat format = showsAttributes(options) ? formatToRead(tree, options) : AttributeFormat::None;
-    vk::Pass pass = graph.addPass(traversing(gpu::trace::Inspect{.orthographic = camera.orthographic, .format = format},
-                                             graph.device(), tree, options));
+    vk::Pass pass = graph.addPass(
+        traversing(gpu::trace::Inspect{.orthographic = camera.orthographic, .format = format}, tree, options));
     gpu::InspectParams params{};
     params.nodes = pass.read(tree.nodes);
     params.hits = pass.read(buffers.hits);

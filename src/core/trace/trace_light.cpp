@@ -145,16 +145,15 @@ void traceLight(vk::FrameGraph& graph, const DeviceTree& tree, const NodePaths& 
             params.to_sun = to_sun;
             return params;
         };
-        addRounds(graph, beginningOnPaths(traversing(kernel, graph.device(), tree, options), tree, options),
-                  roundsFor(tree, options), buffers.rounds, buffers.live.count(), declare, dispatchLive(buffers));
+        addRounds(graph, beginningOnPaths(traversing(kernel, tree, options), tree, options), roundsFor(tree, options),
+                  buffers.rounds, buffers.live.count(), declare, dispatchLive(buffers));
     }
     if (options.occlusion_rays != 0)
     {
         const Grid& grid = tree.grid;
         const gpu::trace::Occlusion kernel{
             .orthographic = camera.orthographic, .format = format, .shadows = options.shadows};
-        vk::Pass pass =
-            graph.addPass(beginningOnPaths(traversing(kernel, graph.device(), tree, options), tree, options));
+        vk::Pass pass = graph.addPass(beginningOnPaths(traversing(kernel, tree, options), tree, options));
         auto params = lightParams<gpu::OcclusionParams>(pass, tree, paths, camera, options, buffers);
         params.light = pass.readWrite(buffers.light);
         params.ray_count = std::min(options.occlusion_rays, kOcclusionRaysMax);

@@ -1,10 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "core/trace/trace_passes.h"
 
-#include "core/base/tuning.h"
-
-#include "vk/device.h"
-
 #include <algorithm>
 #include <cmath>
 
@@ -38,18 +34,6 @@ bool showsAttributes(const TraceOptions& options)
         break;
     }
     return false;
-}
-
-TraceStack stackOn(std::string_view device_type, TraceStack asked)
-{
-    // A GPU keeps a private array that is indexed in device memory: each iteration of each ray would go there and back.
-    return asked == TraceStack::Private && device_type != "cpu" ? TraceStack::Registers : asked;
-}
-
-TraceStack stackConstant(const vk::Device& device, const TraceOptions& options)
-{
-    const auto usual = static_cast<TraceStack>(tunedValue(device, Tunable::RayStack));
-    return stackOn(device.report().type, options.stack.value_or(usual));
 }
 
 AttributeFormat formatToRead(const DeviceTree& tree, const TraceOptions& options)

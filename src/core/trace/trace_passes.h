@@ -7,7 +7,6 @@
 #include "core/tree/device_tree.h"
 
 #include <cstdint>
-#include <string_view>
 
 namespace zvo
 {
@@ -50,19 +49,10 @@ template <typename Params> void readAttributes(vk::AnyPass& pass, const DeviceTr
     params.node_attributes = pass.read(tree.node_attributes);
 }
 
-/// The stack of rays on a device of this DeviceReport::type: the one asked for, but not Private on devices other than
-/// CPUs.
-TraceStack stackOn(std::string_view device_type, TraceStack asked);
-
-/// The value of the constant kStack (lib/traverse.glsl) on this device.
-TraceStack stackConstant(const vk::Device& device, const TraceOptions& options);
-
 /// Sets the constants of a kernel that includes lib/traverse.glsl for a tree and options.
-template <typename Kernel>
-Kernel traversing(Kernel kernel, const vk::Device& device, const DeviceTree& tree, const TraceOptions& options)
+template <typename Kernel> Kernel traversing(Kernel kernel, const DeviceTree& tree, const TraceOptions& options)
 {
     kernel.node_levels = tree.grid.nodeLevels();
-    kernel.stack = stackConstant(device, options);
     kernel.detail = options.hasDetail();
     kernel.iterations_max = options.iterations_max;
     kernel.entries_per_word = tree.entriesPerWord();

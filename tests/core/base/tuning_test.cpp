@@ -2,7 +2,6 @@
 // The table of choices by device, and its overruling by text.
 #include "core/base/tuning.h"
 #include "core/path/path_tracer.h"
-#include "core/trace/trace.h"
 #include "zvo/error.h"
 
 #include <gtest/gtest.h>
@@ -53,11 +52,7 @@ TEST(Tuning, EveryRowsChoicesAreAmongItsValues)
 
 TEST(Tuning, WordsStandForTheirEnumerators)
 {
-    const vk::TuningValues values = parseTuning("", "ray-stack=shared,path-form=kernel");
-    EXPECT_EQ(static_cast<TraceStack>(values.at("ray-stack")), TraceStack::Shared);
-    EXPECT_EQ(static_cast<PathForm>(values.at("path-form")), PathForm::OneKernel);
-    EXPECT_EQ(static_cast<TraceStack>(parseTuning("", "ray-stack=private").at("ray-stack")), TraceStack::Private);
-    EXPECT_EQ(static_cast<TraceStack>(parseTuning("", "ray-stack=registers").at("ray-stack")), TraceStack::Registers);
+    EXPECT_EQ(static_cast<PathForm>(parseTuning("", "path-form=kernel").at("path-form")), PathForm::OneKernel);
     EXPECT_EQ(static_cast<PathForm>(parseTuning("", "path-form=stages").at("path-form")), PathForm::Stages);
 }
 

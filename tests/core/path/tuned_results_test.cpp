@@ -5,7 +5,6 @@
 #include "core/base/tuning.h"
 #include "core/headless/pipeline.h"
 #include "core/path/path_tracer.h"
-#include "core/trace/trace_passes.h"
 #include "core/trace/tree_tracer.h"
 #include "core/upload/gpu_scene.h"
 #include "runtime/octree_sha256.h"
@@ -55,13 +54,12 @@ TunedResults resultsWith(const Scene& scene, const vk::TuningValues& tuning)
 TEST(TunedDevices, TakeWhatIsChosen)
 {
     vk::HeadlessOptions options = test::deviceOptions();
-    options.tuning = parseTuning("", "node-lanes=4,ray-stack=shared");
+    options.tuning = parseTuning("", "node-lanes=4");
     vk::HeadlessDevice chosen(options, zvoKernels());
     EXPECT_EQ(lanesOn(chosen.device()), 4U);
     EXPECT_EQ(lanesOn(chosen.device(), 1ULL << 30), 4U);
     EXPECT_EQ(lanesOn(chosen.device(), (1ULL << 30) + 1), 1U) << "more threads than a dispatch can have";
     EXPECT_EQ(loneGroupOn(chosen.device()), 256U);
-    EXPECT_EQ(stackConstant(chosen.device(), TraceOptions()), TraceStack::Shared);
 }
 
 TEST(TunedResults, AreTheSameForEveryValueOfEveryChoice)

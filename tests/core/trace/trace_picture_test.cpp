@@ -3,7 +3,6 @@
 #include "core/base/kernels.h"
 #include "core/base/morton.h"
 #include "core/trace/trace.h"
-#include "core/trace/trace_passes.h"
 #include "oracle/trace.h"
 #include "support/engine_device.h"
 #include "support/pictures.h"
@@ -129,57 +128,6 @@ TEST(TracePicture, BeamDoesNotChangeThePictureOfCoarserNodes)
         }
     }
     EXPECT_GT(saved_tiles, 1000U);
-}
-
-TEST(TracePicture, EveryStackGivesTheSamePicture)
-{
-    std::mt19937 random(7);
-    DeviceTree octree = test::octreeOf(device(), test::randomCodes(7, 30000, random), 7);
-    test::addAttributes(device(), octree);
-    const TraceCamera camera =
-        traceCamera(ViewCamera::framing({glm::vec3(0.0F), glm::vec3(128.0F)}, 1.0), octree.grid, 120);
-    const Picture first = take(octree, camera, 120, 120, {});
-    EXPECT_GT(hitCount(first), 3000U);
-    for (const TraceStack stack : {TraceStack::Private, TraceStack::Shared})
-    {
-        TraceOptions options;
-        options.stack = stack;
-        expectSameHits(first, take(octree, camera, 120, 120, options));
-    }
-}
-
-TEST(TracePicture, ThePrivateStackIsForCpusAlone)
-{
-    for (const TraceStack stack : {TraceStack::Registers, TraceStack::Private, TraceStack::Shared})
-    {
-        EXPECT_EQ(stackOn("cpu", stack), stack);
-        for (const char* const type : {"discrete", "integrated", "virtual", "other"})
-        {
-            EXPECT_EQ(stackOn(type, stack), stack == TraceStack::Private ? TraceStack::Registers : stack) << type;
-        }
-    }
-    EXPECT_FALSE(TraceOptions{}.stack.has_value());
-}
-
-TEST(TracePicture, EveryStackSurvivesRaysThatLeaveAndReturn)
-{
-    // The octree is so deep that rays begin below the root, to which they return on their way out.
-    std::mt19937 random(8);
-    DeviceTree octree = test::octreeOf(device(), test::randomCodes(9, 4000, random), 9);
-    test::addAttributes(device(), octree);
-    for (const ViewCamera& view : manyCameras(octree.grid))
-    {
-        const TraceCamera camera = traceCamera(view, octree.grid, 70);
-        TraceOptions options;
-        options.beam = false;
-        const Picture first = take(octree, camera, 99, 70, options);
-        options.beam = true;
-        for (const TraceStack stack : {TraceStack::Registers, TraceStack::Private, TraceStack::Shared})
-        {
-            options.stack = stack;
-            expectSameHits(first, take(octree, camera, 99, 70, options));
-        }
-    }
 }
 
 TEST(TracePicture, HitsEqualTheReference)

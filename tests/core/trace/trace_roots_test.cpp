@@ -30,7 +30,6 @@ using test::takePicture;
 constexpr std::uint32_t kFar = 100000; // nodes; does not fit 16 bits
 constexpr std::array kRootViews = {View::Color, View::Albedo,     View::Normal, View::Depth,
                                    View::Level, View::Iterations, View::Voxel,  View::Bricks};
-constexpr std::array kStacks = {TraceStack::Registers, TraceStack::Private, TraceStack::Shared};
 
 using test::device;
 
@@ -143,7 +142,7 @@ TEST(TraceRoots, EveryViewOfARelocatedOctreeIsTheSame)
     }
 }
 
-TEST(TraceRoots, EveryStackGivesTheSamePictureWithAndWithoutBeam)
+TEST(TraceRoots, EveryCameraSeesTheSameWithAndWithoutBeam)
 {
     for (const auto& [depth, codes] : codeSets())
     {
@@ -154,7 +153,6 @@ TEST(TraceRoots, EveryStackGivesTheSamePictureWithAndWithoutBeam)
         {
             TraceOptions options;
             options.view = View::Iterations;
-            options.stack = kStacks.at(i % 3);
             options.beam = i % 2 == 0;
             expectSamePictures(octree, relocated, views[i], 53, 41, options, i);
         }
@@ -173,19 +171,14 @@ TEST(TraceRoots, RaysHitTheSame)
         {
             rays.push_back(test::deviceRay(test::pickRay(random, octree.grid.rootResolution(), codes)));
         }
-        for (const TraceStack stack : kStacks)
+        const std::vector<gpu::Hit> expected = test::traceOnDevice(device(), octree, rays);
+        for (std::size_t i = 0; i < relocated.size(); ++i)
         {
-            TraceOptions options;
-            options.stack = stack;
-            const std::vector<gpu::Hit> expected = test::traceOnDevice(device(), octree, rays, options);
-            for (std::size_t i = 0; i < relocated.size(); ++i)
+            const std::vector<gpu::Hit> hits = test::traceOnDevice(device(), relocated[i].octree, rays);
+            for (std::size_t ray = 0; ray < rays.size(); ++ray)
             {
-                const std::vector<gpu::Hit> hits = test::traceOnDevice(device(), relocated[i].octree, rays, options);
-                for (std::size_t ray = 0; ray < rays.size(); ++ray)
-                {
-                    ASSERT_NO_FATAL_FAILURE(expectSameHit(expected[ray], hits[ray], relocated[i]))
-                        << traceOf(octree, i, ray);
-                }
+                ASSERT_NO_FATAL_FAILURE(expectSameHit(expected[ray], hits[ray], relocated[i]))
+                    << traceOf(octree, i, ray);
             }
         }
     }
@@ -404,19 +397,14 @@ TEST(TraceRoots, AnOctreeOfAnEmptyRootIsNeverHit)
         {
             rays.push_back(test::deviceRay(test::pickRay(random, octree.grid.rootResolution(), codes)));
         }
-        for (const TraceStack stack : kStacks)
+        for (const gpu::Hit& hit : test::traceOnDevice(device(), octree, rays))
         {
-            TraceOptions options;
-            options.stack = stack;
-            for (const gpu::Hit& hit : test::traceOnDevice(device(), octree, rays, options))
-            {
-                ASSERT_EQ(hit.index, gpu::kHitMiss) << depth;
-            }
-            for (const ViewCamera& view : test::manyCameras(octree.grid))
-            {
-                const TraceCamera camera = traceCamera(view, octree.grid, 41);
-                EXPECT_EQ(hitCount(takePicture(device(), octree, camera, 53, 41, options)), 0U) << depth;
-            }
+            ASSERT_EQ(hit.index, gpu::kHitMiss) << depth;
+        }
+        for (const ViewCamera& view : test::manyCameras(octree.grid))
+        {
+            const TraceCamera camera = traceCamera(view, octree.grid, 41);
+            EXPECT_EQ(hitCount(takePicture(device(), octree, camera, 53, 41, {})), 0U) << depth;
         }
     }
 }

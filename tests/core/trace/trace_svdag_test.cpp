@@ -33,7 +33,6 @@ using test::takePicture;
 
 constexpr std::array kDagViews = {View::Color,      View::Albedo, View::Normal, View::Depth, View::Level,
                                   View::Iterations, View::Voxel,  View::Bricks, View::Origin};
-constexpr std::array kStacks = {TraceStack::Registers, TraceStack::Private, TraceStack::Shared};
 
 using test::device;
 
@@ -204,7 +203,7 @@ TEST(TraceSvdag, EveryViewWithoutAttributesIsTheSame)
     }
 }
 
-TEST(TraceSvdag, EveryCameraSeesTheSameWithEveryStackWithAndWithoutBeam)
+TEST(TraceSvdag, EveryCameraSeesTheSameWithAndWithoutBeam)
 {
     for (const auto& [depth, codes] : codeSets())
     {
@@ -213,7 +212,6 @@ TEST(TraceSvdag, EveryCameraSeesTheSameWithEveryStackWithAndWithoutBeam)
         for (std::size_t i = 0; i < views.size(); ++i)
         {
             TraceOptions options;
-            options.stack = kStacks.at(i % 3);
             options.beam = i % 2 == 0;
             expectSamePictures(pair, views[i], 53, 41, options, i == 0, i % 4 < 2);
             options.view = View::Iterations;
@@ -271,14 +269,10 @@ TEST(TraceSvdag, RaysHitTheSame)
     {
         const Pair pair(codes, depth);
         const std::vector<gpu::Ray> rays = pickRays(codes, pair.octree.grid.rootResolution(), 2049);
-        for (const TraceStack stack : kStacks)
-        {
-            TraceOptions options;
-            options.stack = stack;
-            expectSameRays(pair.octree, pair.dag, pair.reference, rays, options);
-            options.detail_level = 2;
-            expectSameRays(pair.octree, pair.dag, pair.reference, rays, options);
-        }
+        TraceOptions options;
+        expectSameRays(pair.octree, pair.dag, pair.reference, rays, options);
+        options.detail_level = 2;
+        expectSameRays(pair.octree, pair.dag, pair.reference, rays, options);
         test::expectEqualsReference(device(), pair.dag, codes, 500);
     }
 }

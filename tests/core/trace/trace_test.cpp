@@ -87,34 +87,15 @@ TEST(Trace, HitsOfShellsAndSpongesEqualTheReference)
     }
 }
 
-TEST(Trace, EveryStackGivesTheSameHits)
-{
-    std::mt19937 random(2);
-    for (const std::uint32_t depth : {1U, 2U, 4U, 7U, 11U})
-    {
-        const test::Codes codes = test::randomCodes(depth, 4000, random);
-        for (const TraceStack stack : {TraceStack::Private, TraceStack::Shared})
-        {
-            TraceOptions options;
-            options.stack = stack;
-            expectEqualsReference(codes, depth, 2049, options);
-        }
-    }
-}
-
 TEST(Trace, RaysThatUseUpTheirIterationsResumeToTheSameHits)
 {
     std::mt19937 random(6);
-    for (const TraceStack stack : {TraceStack::Registers, TraceStack::Private, TraceStack::Shared})
-    {
-        TraceOptions options;
-        options.stack = stack;
-        options.iterations_max = 14;
-        expectEqualsReference(test::spongeCodes(6), 6, 2049, options);
-        expectEqualsReference(test::sphereShell(6, 29.0), 6, 2049, options);
-        expectEqualsReference(test::randomCodes(7, 4000, random), 7, 2049, options);
-        expectEqualsReference(test::randomCodes(11, 4000, random), 11, 2049, options);
-    }
+    TraceOptions options;
+    options.iterations_max = 14;
+    expectEqualsReference(test::spongeCodes(6), 6, 2049, options);
+    expectEqualsReference(test::sphereShell(6, 29.0), 6, 2049, options);
+    expectEqualsReference(test::randomCodes(7, 4000, random), 7, 2049, options);
+    expectEqualsReference(test::randomCodes(11, 4000, random), 11, 2049, options);
 }
 
 TEST(Trace, RaysWithoutAnAnswerAreCounted)
