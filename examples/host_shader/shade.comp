@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: MIT
 // A host's own compute shader: rays through zvo's voxels, and what they hit.
 #extension GL_GOOGLE_include_directive : require
-#define ZVO_GROUP 64
 #include "zvo/trace.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;

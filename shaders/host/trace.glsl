@@ -40,8 +40,6 @@
 // Colours: zvo_encodeSrgb, zvo_decodeSrgb, zvo_packColor8 (the bytes of zvo's pictures), zvo_develop (its tone curve).
 //
 // Define before the include, where it helps:
-//   ZVO_GROUP             threads of the workgroup: rays keep their stack in shared memory, 32 bytes a thread, in place
-//                         of registers. Compute shaders only.
 //   ZVO_NODE_LEVELS       zvo_TreeTable::node_levels of all trees, a constant or a specialization constant: rays take
 //                         registers for so many levels, not for the most that there can be. Other trees are traced
 //                         wrongly.

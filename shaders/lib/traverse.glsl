@@ -22,8 +22,6 @@
 // The includer includes shared/trace.h and defines before:
 //   uvec2 loadHalf(uint half_index)    mask and base of half `half_index & 1` of node `half_index >> 1`
 //   uint loadEntry(uint index, uint per_word)  of a list; with kEntriesPerWord (shared/svdag.h)
-//   TRAVERSE_GROUP                     optional, in compute shaders: threads of the workgroup; nodes above the current
-//                                      one are kept in shared memory then, not in registers
 //   TRAVERSE_PATHS                     optional: a constant, true where rays may begin below the root; not with kDetail
 //                                      or fewer than four levels. Then also, as trace/node_paths.h describes it:
 //   TRAVERSE_PATHS_RELATIVE            a constant, false where the root's first child is node 1
@@ -32,8 +30,8 @@
 //   TRAVERSE_CONSTANT_ID               first of four constant_ids, 0 by default
 //   TRAVERSE_VARIABLES                 optional: then the includer declares what the four constants stand for, by their
 //                                      names; kNodeLevels and kEntriesPerWord may be variables, set before each ray
-//   TRAVERSE_LEVELS                    a constant, at least kNodeLevels: nodes in registers; must be defined if kNodeLevels
-//                                      is a variable
+//   TRAVERSE_LEVELS                    a constant, at least kNodeLevels, for registers; must be defined if that is a
+//                                      variable
 
 #ifndef TRAVERSE_VARIABLES
 #ifndef TRAVERSE_CONSTANT_ID
@@ -74,12 +72,7 @@ struct Traversal
 #endif
 };
 
-// Nodes above the current one, by level.
-#ifdef TRAVERSE_GROUP
-shared uint s_saved[kSavedMax * TRAVERSE_GROUP];
-#else
-uint g_saved[kSavedMax]; // registers: compilers unroll the loops over it
-#endif
+uint g_saved[kSavedMax]; // nodes above the current one, by level: registers, as no index is a variable
 
 // The times at which the planes with these bits as coordinates are crossed.
 vec3 planeTimes(uvec3 planes, vec3 origin, vec3 inverse)
@@ -92,26 +85,17 @@ vec3 planeTimes(uvec3 planes, vec3 origin, vec3 inverse)
 // Notes the node whose cells are numbered by the mantissa bits at shift.
 void saveNode(uint shift, uint node)
 {
-#ifdef TRAVERSE_GROUP
-    s_saved[((kRootShift - shift) >> 1) * TRAVERSE_GROUP + gl_LocalInvocationIndex] = node;
-#else
     [[unroll]] for (uint k = 1u; k < TRAVERSE_LEVELS - 1u; ++k)
         g_saved[k] = shift == kRootShift - 2u * k ? node : g_saved[k];
-#endif
 }
 
 // The node that was noted; the root for shifts outside of the octree.
 uint savedNode(uint shift)
 {
-#ifdef TRAVERSE_GROUP
-    uint level = min((kRootShift - shift) >> 1, kSavedMax - 1u);
-    return s_saved[level * TRAVERSE_GROUP + gl_LocalInvocationIndex];
-#else
     uint node = 0u;
     [[unroll]] for (uint k = 1u; k < TRAVERSE_LEVELS - 1u; ++k)
         node = shift == kRootShift - 2u * k ? g_saved[k] : node;
     return node;
-#endif
 }
 
 #ifdef TRAVERSE_PATHS
@@ -201,9 +185,7 @@ Traversal traverse(vec3 ray_origin, vec3 ray_inverse, float t_min, float t_max, 
     for (; go;)
     {
         ++iterations;
-#ifndef TRAVERSE_GROUP
         saveNode(shift, node);
-#endif
 
         // Find the cell of the node that the last event led to.
         vec3 crossed = uintBitsToFloat(limits);
@@ -262,10 +244,6 @@ Traversal traverse(vec3 ray_origin, vec3 ray_inverse, float t_min, float t_max, 
         }
 
         // Down, or on.
-#ifdef TRAVERSE_GROUP
-        if (occupied)
-            saveNode(shift, node);
-#endif
         stopped = kDetail && occupied && ends;
         limits.x = occupied ? limits.x : leave_bits + 1u;
         limits.y = occupied ? limits.y : x_first ? leave_bits : leave_bits + 1u;

@@ -27,9 +27,6 @@ const uint kEntriesPerWord = ZVO_ENTRIES_PER_WORD;
 uint kEntriesPerWord;
 #endif
 #endif
-#ifdef ZVO_GROUP
-#define TRAVERSE_GROUP ZVO_GROUP
-#endif
 #ifdef ZVO_DETAIL
 const bool kDetail = true;
 #else
