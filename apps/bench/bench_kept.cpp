@@ -12,8 +12,8 @@
 #include "common/report.h"
 #include "common/session.h"
 #include "core/base/kernels.h"
+#include "core/frame/frame_renderer.h"
 #include "core/path/path_tracer.h"
-#include "core/radiance/radiance_tracer.h"
 #include "core/trace/tree_tracer.h"
 #include "zvo/version.h"
 
@@ -174,15 +174,18 @@ public:
     /// the same frames.
     std::vector<KeptRow> kept(const HdrImage& reference, std::span<const std::uint32_t> counts, const KeptRow& path)
     {
-        RadianceTracer tracer(m_device.device());
+        const FrameOptions options = {.integrator = Integrator::Cached, .radiance = m_kept};
+        FrameRenderer tracer(m_device.device());
         tracer.resize(m_width, m_height);
         RadianceView cones(m_device.device(), m_width, m_height);
         std::vector<KeptRow> rows;
         std::vector<double> ms;
         const auto addFrame = [&]
         {
-            return m_device.run([&](vk::FrameGraph& graph)
-                                { tracer.addFrame(graph, m_scene.tree, m_scene.light, m_camera, m_kept); });
+            return m_device.run(
+                [&](vk::FrameGraph& graph) {
+                    tracer.addSample(graph, {m_scene.tree, m_camera, &m_scene.light}, options);
+                });
         };
         for (const std::uint32_t count : counts)
         {
@@ -192,7 +195,7 @@ public:
             }
             std::vector<double> cone_ms;
             const double settled_ms = totalOf(ms);
-            tracer.beginPicture();
+            tracer.beginPicture(options);
             cones.begin();
             for (std::uint32_t frame = 0; frame < kPictureFrames; ++frame)
             {
@@ -203,7 +206,7 @@ public:
             KeptRow row = rowOf("cached", count);
             row.frame_ms = medianOf(ms);
             row.total_ms = totalOf(ms);
-            compareKept(row, reference, tracer.picture(), path, tracer.cache());
+            compareKept(row, reference, tracer.samples(options), path, tracer.cache());
             rows.push_back(row);
             row = rowOf("cones", count);
             row.frame_ms = medianOf(cone_ms);
@@ -247,7 +250,7 @@ private:
     }
 
     // Adds what cones see in the tracer's last frame. Returns the milliseconds.
-    double addCones(const RadianceTracer& tracer, RadianceView& cones)
+    double addCones(FrameRenderer& tracer, RadianceView& cones)
     {
         const TraceCamera through = shifted(m_camera, pointOfPixel(cones.frameCount()));
         return sumMs(m_device.run(

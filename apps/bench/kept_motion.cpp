@@ -5,9 +5,9 @@
 #include "bench/lit_scenes.h"
 #include "bench/picture_quality.h"
 #include "common/view.h"
+#include "core/frame/frame_renderer.h"
 #include "core/light/light_tree.h"
 #include "core/path/path_tracer.h"
-#include "core/radiance/radiance_tracer.h"
 #include "runtime/live_scene.h"
 #include "zvo/error.h"
 
@@ -31,6 +31,7 @@ constexpr std::array<std::uint32_t, 6> kPassed = {0, 8, 16, 24, kFlickerFrames, 
 constexpr std::uint32_t kPassedSamples = 48; // a pixel of pictures that find it
 constexpr int kSmoothRadius = 2;             // pixels around, over whose mean it is looked for
 constexpr std::uint32_t kPathBounces = 32;
+const FrameOptions kCached = {.integrator = Integrator::Cached};
 
 using Values = std::vector<double>;
 using Mask = std::vector<bool>;
@@ -138,9 +139,9 @@ public:
         const HdrImage reference = trace(m_options.reference_samples, {.bounces = kPathBounces, .seed = 1},
                                          [&](double done) { progress.within(0.2 + 0.6 * done); });
         const auto stand = [](std::uint32_t) {};
-        RadianceTracer standing = tracerOf();
+        FrameRenderer standing = tracerOf();
         result.flicker_still = meanWhere(calm, keepLight(standing, {.faces = m_options.faces}, stand));
-        const HdrImage still = pictureOf(standing);
+        const HdrImage still = pictureOf(standing.samples(kCached));
         const auto errorOf = [&, &near = near](const HdrImage& picture, std::uint32_t frames)
         {
             const Values errors = relativeErrors(reference, picture);
@@ -150,11 +151,11 @@ public:
         result.still = errorOf(still, kLightFrames);
         const RadianceOptions other = {.faces = m_options.faces,
                                        .seed = 1}; // noise that has nothing to do with that of the still picture
-        RadianceTracer beside = tracerOf();
+        FrameRenderer beside = tracerOf();
         keepLight(beside, other, stand);
-        result.still.lag = meanWhere(near, relativeErrors(still, pictureOf(beside)));
+        result.still.lag = meanWhere(near, relativeErrors(still, pictureOf(beside.samples(kCached))));
         progress.within(0.9);
-        RadianceTracer moving = tracerOf();
+        FrameRenderer moving = tracerOf();
         const auto move = [&](std::uint32_t frame) { show(m_stand - std::min(kLightFrames - 1 - frame, kRunFrames)); };
         result.flicker_moving = meanWhere(calm, keepLight(moving, other, move));
         std::uint32_t frame = 0; // since it stands
@@ -164,7 +165,7 @@ public:
             {
                 addFrame(moving, other);
             }
-            result.after.push_back(errorOf(pictureOf(moving), frames));
+            result.after.push_back(errorOf(pictureOf(moving.samples(kCached)), frames));
         }
         return result;
     }
@@ -180,22 +181,27 @@ private:
 
     void show(std::uint64_t frame) { m_live.settle(frameTime(m_live.animated(), frame)); }
 
-    RadianceTracer tracerOf()
+    FrameRenderer tracerOf()
     {
-        RadianceTracer tracer(m_device.device());
+        FrameRenderer tracer(m_device.device());
         tracer.resize(m_options.width, m_options.height);
         return tracer;
     }
 
-    void addFrame(RadianceTracer& tracer, const RadianceOptions& options)
+    void addFrame(FrameRenderer& tracer, const RadianceOptions& options)
     {
-        tracer.beginPicture(); // as a window does where something moves
-        m_device.run([&](vk::FrameGraph& graph) { tracer.addFrame(graph, m_live.tree(), m_light, m_camera, options); });
+        // Each frame is a picture, as in a window where something moves.
+        const FrameOptions frame = {.integrator = Integrator::Cached, .radiance = options};
+        tracer.beginPicture(frame);
+        m_device.run(
+            [&](vk::FrameGraph& graph) {
+                tracer.addSample(graph, {m_live.tree(), m_camera, &m_light}, frame);
+            });
     }
 
     // Brings light up to date. before: called before each frame. Returns the flicker of each pixel in the last frames.
     template <typename Before>
-    Values keepLight(RadianceTracer& tracer, const RadianceOptions& options, const Before& before)
+    Values keepLight(FrameRenderer& tracer, const RadianceOptions& options, const Before& before)
     {
         Flicker flicker;
         for (std::uint32_t frame = 0; frame < kLightFrames; ++frame)
@@ -204,7 +210,7 @@ private:
             addFrame(tracer, options);
             if (frame >= kLightFrames - kFlickerFrames)
             {
-                flicker.add(pictureOf(tracer));
+                flicker.add(pictureOf(tracer.samples(kCached)));
             }
         }
         return flicker.relative();
@@ -220,7 +226,7 @@ private:
                          { tracer.addSample(graph, m_live.tree(), m_light, m_camera, options); });
             told(static_cast<double>(i + 1) / samples);
         }
-        return pictureOf(tracer);
+        return pictureOf(tracer.picture());
     }
 
     // The pixels in which what moves counts where it stands or was shortly before, and those in which it never does.
@@ -258,9 +264,8 @@ private:
         }
     }
 
-    template <typename Tracer> HdrImage pictureOf(Tracer& tracer)
+    HdrImage pictureOf(const SampledPicture& picture)
     {
-        const SampledPicture picture = tracer.picture();
         return zvo::pictureOf(m_device.download(picture.sums), picture.width, picture.height, picture.sample_count);
     }
 

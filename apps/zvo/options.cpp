@@ -91,53 +91,52 @@ Examples:
 // The options of pictures by path tracing.
 void addPathOptions(CLI::App& render, RenderOptions& options)
 {
-    addValue(render, "--integrator", options.integrator, integratorOf, kIntegratorTypes, kIntegratorHelp);
+    addValue(render, "--integrator", options.frame.integrator, integratorOf, kIntegratorTypes, kIntegratorHelp);
     const auto integer = [](std::uint32_t low, std::uint32_t high)
     {
         return [low, high](std::string_view option, std::string_view text)
         { return static_cast<std::uint32_t>(parseInteger(option, text, low, high)); };
     };
-    PathRenderOptions& paths = options.paths;
-    addValue(render, "--spp", paths.samples, integer(1, 1U << 24), "N",
+    PathOptions& path = options.frame.path;
+    addValue(render, "--spp", options.samples, integer(1, 1U << 24), "N",
              fmt::format("paths a pixel, or frames of --integrator cached, 1 to {} (default 64, or 16)", 1U << 24));
-    addValue(render, "--bounces", paths.path.bounces, integer(0, kBouncesMax), "N",
+    addValue(render, "--bounces", path.bounces, integer(0, kBouncesMax), "N",
              fmt::format("diffuse reflections of a path, 0 to {} (default 8)", kBouncesMax));
-    addValue(render, "--seed", paths.path.seed, integer(0, UINT32_MAX), "N",
+    addValue(render, "--seed", path.seed, integer(0, UINT32_MAX), "N",
              fmt::format("of the paths' random numbers, 0 to {} (default 0)", UINT32_MAX));
-    KeptRenderOptions& kept = options.kept;
-    addValue(render, "--settle", kept.settle, integer(0, 1U << 24), "N",
+    addValue(render, "--settle", options.settle, integer(0, 1U << 24), "N",
              fmt::format("frames of --integrator cached before the first picture, 0 to {} (default 64)", 1U << 24));
-    addValue(render, "--rays", kept.radiance.faces, integer(1, kRadianceFacesMax), "N",
+    addValue(render, "--rays", options.frame.radiance.faces, integer(1, kRadianceFacesMax), "N",
              fmt::format("faces that a frame of --integrator cached samples at most, 1 to {} (default 16384): each "
                          "takes up to two rays and two shadow rays",
                          kRadianceFacesMax));
-    addValue(render, "--aperture", paths.path.lens_radius, parsePositive, "RADIUS",
+    addValue(render, "--aperture", path.lens_radius, parsePositive, "RADIUS",
              "radius of the lens of the camera, in world units (default: a pinhole)");
-    addValue(render, "--focus", paths.path.focus_distance, parsePositive, "DISTANCE",
+    addValue(render, "--focus", path.focus_distance, parsePositive, "DISTANCE",
              "distance of the plane that is in focus, in world units (default 1)");
     addValue(
-        render, "--environment", paths.environment,
+        render, "--environment", options.environment.map,
         [](std::string_view, const std::string& text) { return std::filesystem::path(text); }, "FILE",
         "a map of the light from all directions, .hdr or .exr, in place of sun and sky, or none for no light; --sun "
         "adds "
         "the sun");
-    addValue(render, "--environment-turn", paths.environment_turn, parseDegrees, "DEGREES",
+    addValue(render, "--environment-turn", options.environment.turn, parseDegrees, "DEGREES",
              "turns the map about the vertical, counterclockwise from above (default 0)");
-    addValue(render, "--environment-strength", paths.environment_strength, parsePositive, "FACTOR",
+    addValue(render, "--environment-strength", options.environment.strength, parsePositive, "FACTOR",
              "factor for the map's light (default 1)");
-    render.add_flag("--denoise", paths.denoise,
+    render.add_flag("--denoise", options.frame.denoise,
                     "smooth the noise of few paths, but not edges; in sequences with the help of earlier pictures");
-    render.add_flag("--aov", paths.aovs,
+    render.add_flag("--aov", options.aovs,
                     "write albedo, normal, depth and motion as channels of the picture, which must be an .exr");
     addValue(
-        render, "--path-form", paths.form,
+        render, "--path-form", options.frame.path_form,
         [](std::string_view option, std::string_view text) {
             return oneOf(option, text, {"stages", "kernel"}) == "kernel" ? PathForm::OneKernel : PathForm::Stages;
         },
         "stages|kernel",
         "paths advance together, or one kernel follows each to its end; the picture is the same (default: as is faster "
         "on the device)");
-    addValue(render, "--time-limit", paths.time_limit, parseSeconds, "SECONDS",
+    addValue(render, "--time-limit", options.time_limit, parseSeconds, "SECONDS",
              "begin no more paths after this time; the picture shows those that were traced");
 }
 
@@ -159,18 +158,21 @@ void addOptions(CLI::App& render, RenderOptions& options)
         "a camera that flies along the keys in a JSON file; of --frames, frame N at N / frames_per_second seconds, or "
         "at --time")
         ->excludes("--camera");
-    addValue(render, "--view", options.view, viewOf, "VIEW", viewHelp());
+    addValue(render, "--view", options.frame.trace.view, viewOf, "VIEW", viewHelp());
     addValue(
-        render, "--occlusion", options.occlusion_rays,
+        render, "--occlusion", options.frame.trace.occlusion_rays,
         [](std::string_view option, std::string_view text)
         { return static_cast<std::uint32_t>(parseInteger(option, text, 0, kOcclusionRaysMax)); },
         "RAYS",
         fmt::format("rays a pixel that find how much of the sky it sees, 0 to {} (default 0)", kOcclusionRaysMax));
     addValue(render, "--sun", options.to_sun, parseDirection, "x,y,z", "direction to the sun (default -0.6,0.75,0.45)");
     addPathOptions(render, options);
-    addValue(render, "--exposure", options.exposure, parsePositive, "FACTOR",
-             "brightness of the picture (default 1; for paths, so that it is neither dark nor bright)");
-    addValue(render, "--detail", options.detail_pixels, parsePositive, "PIXELS",
+    addValue(
+        render, "--exposure", options.frame.exposure,
+        [](std::string_view option, std::string_view text)
+        { return Exposure{.automatic = false, .factor = static_cast<float>(parsePositive(option, text))}; },
+        "FACTOR", "brightness of the picture (default 1; for paths, so that it is neither dark nor bright)");
+    addValue(render, "--detail", options.frame.trace.detail_pixels, parsePositive, "PIXELS",
              "rays stop at octree nodes up to this many pixels wide (default: they go on to voxels)");
     addValue(render, "--frames", options.frames, parseFrames, "A..B",
              "pictures of a scene in which something moves, frame N at N / frames_per_second seconds; of any other "

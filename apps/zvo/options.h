@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "common/integrator.h"
+#include "common/integrator_name.h"
 #include "common/scene_options.h"
-#include "core/path/path_tracer.h"
-#include "core/radiance/radiance_cache.h"
+#include "core/frame/frame_options.h"
 #include "core/scene/scene.h"
-#include "core/trace/trace.h"
 #include "core/tree/tree_data.h"
 #include "io/scene/load_scene.h"
 #include "zvo/types.h"
@@ -22,26 +20,12 @@
 namespace zvo::cli
 {
 
-/// How a picture is path traced. Environment, samples and time limit count for the others with
-/// samples, too.
-struct PathRenderOptions
+/// What a scene is lit by, in pictures with samples.
+struct EnvironmentOptions
 {
-    PathOptions path;
-    std::optional<PathForm> form;                     // not given: by the device
-    std::optional<std::uint32_t> samples;             // a pixel
-    std::optional<double> time_limit;                 // seconds, after which no sample begins
-    std::optional<std::filesystem::path> environment; // a map, or "none": no light; not given: the simple sky
-    double environment_turn = 0.0;                    // degrees, counterclockwise from above
-    float environment_strength = 1.0F;
-    bool denoise = false;
-    bool aovs = false; // writes what the picture shows beside its light, too
-};
-
-/// How a picture is made of light that is kept on voxels.
-struct KeptRenderOptions
-{
-    RadianceOptions radiance;
-    std::uint32_t settle = 128; // frames before the first picture
+    std::optional<std::filesystem::path> map; // or "none": no light; not given: the simple sky
+    double turn = 0.0;                        // degrees, counterclockwise from above
+    float strength = 1.0F;
 };
 
 struct RenderOptions
@@ -53,23 +37,22 @@ struct RenderOptions
     std::uint32_t height = 720;
     std::string camera; // as given; empty: the scene's first one, or a fitting one
     std::optional<std::filesystem::path> camera_path;
-    View view = TraceOptions().view;
-    std::uint32_t occlusion_rays = TraceOptions().occlusion_rays; // a pixel
-    std::optional<glm::dvec3> to_sun;                             // direction, any length
-    std::optional<float> exposure;                                // none: 1, or for paths by the picture's brightness
-    float detail_pixels = TraceOptions().detail_pixels;           // rays stop at octree nodes up to this wide
-    Integrator integrator = Integrator::Primary;
-    PathRenderOptions paths;                                       // Integrator::Path, Cached and Cones
-    KeptRenderOptions kept;                                        // Integrator::Cached and Cones
+    FrameOptions frame;
+    std::optional<glm::dvec3> to_sun;     // direction, any length
+    EnvironmentOptions environment;       // this and the next two: of pictures with samples
+    std::optional<std::uint32_t> samples; // a pixel
+    std::optional<double> time_limit;     // seconds, after which no sample begins
+    std::uint32_t settle = 128;           // frames before the first picture; Integrator::Cached and Cones
+    bool aovs = false;                    // writes what the picture shows beside its light, too; Integrator::Path
     std::optional<std::pair<std::uint32_t, std::uint32_t>> frames; // first and last
     std::optional<TreeStructure> structure; // of the static part; not given: an octree, or the file's
     bool rebuild = false;                   // voxelizes everything for each picture, instead of merging dynamic objects
 
     /// Whether pictures are sums of samples.
-    [[nodiscard]] bool hasSamples() const { return integrator != Integrator::Primary; }
+    [[nodiscard]] bool hasSamples() const { return frame.integrator != Integrator::Primary; }
 
     /// The samples of a pixel: paths, or frames.
-    [[nodiscard]] std::uint32_t sampleCount() const { return paths.samples.value_or(keepsLight(integrator) ? 16 : 64); }
+    [[nodiscard]] std::uint32_t sampleCount() const { return samples.value_or(keepsLight(frame.integrator) ? 16 : 64); }
 };
 
 struct VoxelizeOptions

@@ -280,52 +280,53 @@ void checkIntegratorOptions(const RenderOptions& options)
     const Integrators of_samples = {Integrator::Path, Integrator::Cached, Integrator::Cones};
     const Integrators of_primary = {Integrator::Primary};
     const RenderOptions plain;
-    const PathRenderOptions& paths = options.paths;
+    const FrameOptions& frame = options.frame;
+    const EnvironmentOptions& environment = options.environment;
     const std::tuple<const char*, bool, Integrators> given[] = {
-        {"--spp", paths.samples.has_value(), of_samples},
-        {"--bounces", paths.path.bounces != plain.paths.path.bounces, of_paths},
-        {"--seed", paths.path.seed != plain.paths.path.seed, of_samples},
-        {"--settle", options.kept.settle != plain.kept.settle, of_kept},
-        {"--rays", options.kept.radiance != plain.kept.radiance, of_kept},
-        {"--aperture", paths.path.lens_radius != plain.paths.path.lens_radius, of_paths},
-        {"--focus", paths.path.focus_distance != plain.paths.path.focus_distance, of_paths},
-        {"--environment", paths.environment.has_value(), of_samples},
-        {"--environment-turn", paths.environment_turn != plain.paths.environment_turn, of_samples},
-        {"--environment-strength", paths.environment_strength != plain.paths.environment_strength, of_samples},
-        {"--denoise", paths.denoise, of_paths},
-        {"--aov", paths.aovs, of_paths},
-        {"--path-form", paths.form.has_value(), of_paths},
-        {"--time-limit", paths.time_limit.has_value(), of_samples},
-        {"--view", options.view != plain.view, of_primary},
-        {"--occlusion", options.occlusion_rays != plain.occlusion_rays, of_primary},
-        {"--detail", options.detail_pixels != plain.detail_pixels, of_primary},
+        {"--spp", options.samples.has_value(), of_samples},
+        {"--bounces", frame.path.bounces != plain.frame.path.bounces, of_paths},
+        {"--seed", frame.path.seed != plain.frame.path.seed, of_samples},
+        {"--settle", options.settle != plain.settle, of_kept},
+        {"--rays", frame.radiance != plain.frame.radiance, of_kept},
+        {"--aperture", frame.path.lens_radius != plain.frame.path.lens_radius, of_paths},
+        {"--focus", frame.path.focus_distance != plain.frame.path.focus_distance, of_paths},
+        {"--environment", environment.map.has_value(), of_samples},
+        {"--environment-turn", environment.turn != plain.environment.turn, of_samples},
+        {"--environment-strength", environment.strength != plain.environment.strength, of_samples},
+        {"--denoise", frame.denoise, of_paths},
+        {"--aov", options.aovs, of_paths},
+        {"--path-form", frame.path_form.has_value(), of_paths},
+        {"--time-limit", options.time_limit.has_value(), of_samples},
+        {"--view", frame.trace.view != plain.frame.trace.view, of_primary},
+        {"--occlusion", frame.trace.occlusion_rays != plain.frame.trace.occlusion_rays, of_primary},
+        {"--detail", frame.trace.detail_pixels != plain.frame.trace.detail_pixels, of_primary},
     };
     for (const auto& [name, is_given, integrators] : given)
     {
-        if (is_given && std::find(integrators.begin(), integrators.end(), options.integrator) == integrators.end())
+        if (is_given && std::find(integrators.begin(), integrators.end(), frame.integrator) == integrators.end())
         {
             const std::string_view first = nameOf(*integrators.begin());
             throw Error(ErrorCode::Usage,
                         integrators.size() == 1 && first == "primary"
-                            ? fmt::format("{} does not go with --integrator {}", name, nameOf(options.integrator))
+                            ? fmt::format("{} does not go with --integrator {}", name, nameOf(frame.integrator))
                             : fmt::format("{} needs --integrator {}", name, first));
         }
     }
-    const bool has_map = paths.environment && *paths.environment != "none";
-    if (paths.environment_turn != plain.paths.environment_turn && !has_map)
+    const bool has_map = environment.map && *environment.map != "none";
+    if (environment.turn != plain.environment.turn && !has_map)
     {
         throw Error(ErrorCode::Usage, "--environment-turn needs a map: --environment FILE");
     }
-    if (paths.environment_strength != plain.paths.environment_strength && !has_map)
+    if (environment.strength != plain.environment.strength && !has_map)
     {
         throw Error(ErrorCode::Usage, "--environment-strength needs a map: --environment FILE");
     }
-    if (paths.path.focus_distance != plain.paths.path.focus_distance &&
-        paths.path.lens_radius == plain.paths.path.lens_radius)
+    if (frame.path.focus_distance != plain.frame.path.focus_distance &&
+        frame.path.lens_radius == plain.frame.path.lens_radius)
     {
         throw Error(ErrorCode::Usage, "--focus needs --aperture: all is sharp without a lens");
     }
-    if (paths.aovs && extensionOf(options.output.path) != ".exr")
+    if (options.aovs && extensionOf(options.output.path) != ".exr")
     {
         throw Error(ErrorCode::Usage,
                     fmt::format("--aov needs an output that ends in .exr, not {}", options.output.path));
@@ -361,9 +362,9 @@ void render(const RenderOptions& options)
     {
         inputs.push_back(*options.camera_path);
     }
-    if (options.paths.environment)
+    if (options.environment.map)
     {
-        inputs.push_back(*options.paths.environment);
+        inputs.push_back(*options.environment.map);
     }
     checkPaths(options.output, inputs);
     Pictures pictures(options);

@@ -153,7 +153,7 @@ Json RenderReport::json(std::uint64_t capped_rays, const RadianceCache* kept) co
 // What both kinds of pictures with samples have in common.
 Json RenderReport::samplesJson() const
 {
-    const PathRenderOptions& paths = m_options.paths;
+    const EnvironmentOptions& environment = m_options.environment;
     Json pictures = Json::array();
     bool stopped = m_options.frames && m_times.size() <= m_options.frames->second - m_options.frames->first;
     for (const PictureTimes& times : m_times)
@@ -171,24 +171,24 @@ Json RenderReport::samplesJson() const
     return {{"samples", m_times.front().samples},
             {"samples_asked", m_options.sampleCount()},
             {"stopped", stopped},
-            {"seed", paths.path.seed},
-            {"environment", paths.environment ? Json(paths.environment->string()) : Json(nullptr)},
-            {"environment_turn", paths.environment_turn},
-            {"environment_strength", paths.environment_strength},
-            {"time_limit", paths.time_limit ? Json(*paths.time_limit) : Json(nullptr)},
+            {"seed", m_options.frame.path.seed},
+            {"environment", environment.map ? Json(environment.map->string()) : Json(nullptr)},
+            {"environment_turn", environment.turn},
+            {"environment_strength", environment.strength},
+            {"time_limit", m_options.time_limit ? Json(*m_options.time_limit) : Json(nullptr)},
             {"pictures", pictures}};
 }
 
 Json RenderReport::pathsJson() const
 {
-    const PathRenderOptions& paths = m_options.paths;
-    const PathForm form = paths.form.value_or(pathFormOn(m_device.device()));
+    const FrameOptions& frame = m_options.frame;
+    const PathForm form = frame.path_form.value_or(pathFormOn(m_device.device()));
     Json json = samplesJson();
-    json["bounces"] = paths.path.bounces;
+    json["bounces"] = frame.path.bounces;
     json["form"] = form == PathForm::Stages ? "stages" : "kernel";
-    json["aperture"] = paths.path.lens_radius;
-    json["focus"] = paths.path.focus_distance;
-    json["denoise"] = paths.denoise;
+    json["aperture"] = frame.path.lens_radius;
+    json["focus"] = frame.path.focus_distance;
+    json["denoise"] = frame.denoise;
     return json;
 }
 
@@ -196,8 +196,8 @@ Json RenderReport::keptJson(const RadianceCache& kept) const
 {
     const gpu::RadianceCounters counters = m_device.download(kept.counters()).front();
     Json json = samplesJson();
-    json["settle"] = m_options.kept.settle;
-    json["rays"] = m_options.kept.radiance.faces;
+    json["settle"] = m_options.settle;
+    json["rays"] = m_options.frame.radiance.faces;
     json["faces"] = counters.face_count;
     json["faces_refused"] = counters.refused;
     json["bytes"] = kept.bytes();
@@ -217,7 +217,7 @@ void RenderReport::tell(std::uint32_t picture_count, std::uint64_t capped_rays) 
     if (m_times.front().samples != 0)
     {
         talk(fmt::format("{}; {} {} in {:.1f} ms on {}", m_built, m_times.front().samples,
-                         m_options.integrator == Integrator::Path ? "paths a pixel" : "frames",
+                         m_options.frame.integrator == Integrator::Path ? "paths a pixel" : "frames",
                          m_times.front().trace_ms, m_device.device().report().name));
         return;
     }

@@ -3,10 +3,16 @@
 
 #include "common/output.h"
 #include "common/report.h"
+#include "core/path/aov.h"
+#include "environment_input.h"
+#include "io/image/hdr_image_io.h"
 #include "io/image/image_io.h"
 #include "zvo/error.h"
 
 #include <fmt/format.h>
+
+#include <string>
+#include <utility>
 
 namespace zvo::cli
 {
@@ -30,11 +36,51 @@ double primaryMs(const std::vector<vk::PassTime>& passes)
     return ms_until_primary;
 }
 
-void setSize(TreeTracer& tracer, const RenderOptions& options)
+void append(std::vector<vk::PassTime>& passes, const std::vector<vk::PassTime>& more)
+{
+    passes.insert(passes.end(), more.begin(), more.end());
+}
+
+// What the options say in other places than FrameOptions.
+FrameOptions frameOptions(const RenderOptions& options)
+{
+    constexpr std::uint32_t kHistory = 8; // earlier pictures that count
+    FrameOptions frame = options.frame;
+    frame.trace.to_sun = options.to_sun.value_or(frame.trace.to_sun);
+    frame.path.features = options.aovs;
+    frame.history_max = kHistory * options.sampleCount();
+    frame.radiance.seed = frame.path.seed;
+    return frame;
+}
+
+} // namespace
+
+Renderer::Renderer(vk::HeadlessDevice& device, const RenderOptions& options)
+    : m_device(device), m_options(options), m_frame(frameOptions(options)), m_renderer(device.device())
+{
+    if (options.hasSamples())
+    {
+        m_environment = readEnvironment(device.device(), options);
+    }
+}
+
+std::vector<vk::PassTime> Renderer::show(const DeviceTree& tree)
+{
+    m_tree = &tree;
+    if (m_frame.integrator != Integrator::Primary)
+    {
+        return {};
+    }
+    setSize();
+    return m_device.run([&](vk::FrameGraph& graph) { m_renderer.prepare(graph, tree); });
+}
+
+void Renderer::setSize()
 {
     try
     {
-        tracer.resize(options.width, options.height);
+        m_renderer.resize(m_options.width, m_options.height);
+        m_renderer.reserve(*m_tree, m_frame);
     }
     catch (const Error& error)
     {
@@ -42,85 +88,165 @@ void setSize(TreeTracer& tracer, const RenderOptions& options)
         {
             throw;
         }
-        throw Error(ErrorCode::Memory, fmt::format("a picture of {} x {} pixels (--size) is too large: {}, or a "
-                                                   "smaller picture",
-                                                   options.width, options.height, error.what()));
+        const bool in_stages = m_frame.integrator == Integrator::Path &&
+                               m_frame.path_form.value_or(pathFormOn(m_device.device())) == PathForm::Stages;
+        throw Error(ErrorCode::Memory,
+                    fmt::format("a picture of {} x {} pixels (--size) is too large: {}, or make a smaller picture{}",
+                                m_options.width, m_options.height, error.what(),
+                                in_stages ? ", or choose --path-form kernel, which needs less" : ""));
     }
 }
 
-} // namespace
-
-Renderer::Renderer(vk::HeadlessDevice& device, const RenderOptions& options)
-    : m_device(device), m_options(options), m_tracer(device.device())
+std::vector<std::uint8_t> Renderer::render(const ViewCamera& view, Progress& progress, PictureTimes& times)
 {
-    m_trace.view = options.view;
-    m_trace.detail_pixels = options.detail_pixels;
-    m_trace.occlusion_rays = options.occlusion_rays;
-    m_trace.exposure = options.exposure.value_or(m_trace.exposure);
-    m_trace.to_sun = options.to_sun.value_or(m_trace.to_sun);
-    if (options.hasSamples())
+    m_camera_before = std::exchange(m_camera, traceCamera(view, m_tree->grid, m_options.height));
+    if (m_frame.integrator != Integrator::Primary)
     {
-        m_light.emplace(device, options);
+        if (std::optional<std::vector<std::uint8_t>> picture = renderSamplesOrWarn(progress, times))
+        {
+            return std::move(*picture);
+        }
+        m_frame.integrator = Integrator::Primary;
+        m_renderer.dropSamples();
+        show(*m_tree);
     }
+    return renderPrimary(times);
 }
 
-std::vector<vk::PassTime> Renderer::show(const DeviceTree& tree)
+std::vector<std::uint8_t> Renderer::renderPrimary(PictureTimes& times)
 {
-    m_tree = &tree;
-    if (m_light)
-    {
-        return {};
-    }
-    setSize(m_tracer, m_options);
-    return m_device.run([&](vk::FrameGraph& graph) { m_tracer.prepare(graph, tree); });
+    const FrameSubject subject = {*m_tree, *m_camera};
+    times.passes = m_device.run([&](vk::FrameGraph& graph) { m_renderer.render(graph, subject, m_frame); });
+    times.trace_ms = primaryMs(times.passes);
+    times.shade_ms = sumMs(times.passes) - times.trace_ms;
+    m_capped_rays += m_device.download(m_renderer.buffers().status).front().capped_rays;
+    return encodePicture();
 }
 
 // The picture whose light is computed by samples; nothing, with a warning, if there is no room to keep light on voxels.
-std::optional<std::vector<std::uint8_t>> Renderer::renderLight(const ViewCamera& view, Progress& progress,
-                                                               PictureTimes& times)
+std::optional<std::vector<std::uint8_t>> Renderer::renderSamplesOrWarn(Progress& progress, PictureTimes& times)
 {
     try
     {
-        std::vector<std::uint8_t> picture = m_light->render(*m_tree, view, progress, times.passes);
-        times.trace_ms = sumMs(times.passes);
-        times.samples = m_light->sampleCount();
-        times.exposure = m_light->exposure();
-        m_capped_rays = (m_light->kept() == nullptr ? m_capped_rays : 0) + m_light->cappedRays();
-        return picture;
+        return renderSamples(progress, times);
     }
     catch (const Error& error)
     {
-        if (error.code() != ErrorCode::Memory || !keepsLight(m_options.integrator) ||
+        if (error.code() != ErrorCode::Memory || !keepsLight(m_frame.integrator) ||
             extensionOf(m_options.output.path) != ".png")
         {
             throw;
         }
         talk(fmt::format("warning: no light is kept on voxels, and pictures are by --integrator primary: {}",
                          error.what()));
+        times = {};
         return std::nullopt;
     }
 }
 
-std::vector<std::uint8_t> Renderer::render(const ViewCamera& view, Progress& progress, PictureTimes& times)
+std::vector<std::uint8_t> Renderer::renderSamples(Progress& progress, PictureTimes& times)
 {
-    if (m_light)
+    const Clock::time_point begin = Clock::now();
+    setSize();
+    if (!m_watch)
     {
-        if (std::optional<std::vector<std::uint8_t>> picture = renderLight(view, progress, times))
+        m_watch.emplace();
+        if (m_options.environment.map == "none" && !m_options.to_sun && !hasEmission(*m_tree))
         {
-            return std::move(*picture);
+            talk("warning: nothing gives off light: the scene has no emissive voxels, --environment is none, and there "
+                 "is no --sun");
         }
-        m_light.reset();
-        show(*m_tree);
+        settle(progress, times);
     }
-    const TraceBuffers& buffers = m_tracer.buffers();
-    const TraceCamera camera = traceCamera(view, m_tree->grid, buffers.height);
-    times.passes = m_device.run([&](vk::FrameGraph& graph) { m_tracer.trace(graph, *m_tree, camera, m_trace); });
-    times.trace_ms = primaryMs(times.passes);
-    times.shade_ms = sumMs(times.passes) - times.trace_ms;
-    m_capped_rays += m_device.download(buffers.status).front().capped_rays;
-    const std::vector<gpu::uint> image = m_device.download(buffers.image);
-    const auto* const bytes = reinterpret_cast<const std::uint8_t*>(image.data());
-    return encodePng(buffers.width, buffers.height, {bytes, image.size() * sizeof(gpu::uint)});
+    addSamples(begin, progress, times);
+    if (m_frame.denoise)
+    {
+        append(times.passes, m_device.run([&](vk::FrameGraph& graph) { m_renderer.denoise(graph, m_frame); }));
+    }
+    times.trace_ms = sumMs(times.passes);
+    const auto& status = keepsLight(m_frame.integrator) ? m_renderer.cache().status() : m_renderer.pathStatus();
+    m_capped_rays = m_device.download(status).front().capped_rays; // of all pictures so far
+    return encodeSamples(times);
+}
+
+// Brings the light that is kept on voxels up to date before the first picture.
+void Renderer::settle(Progress& progress, PictureTimes& times)
+{
+    const std::uint32_t count = keepsLight(m_frame.integrator) ? m_options.settle : 0;
+    for (std::uint32_t frame = 0; frame < count && !interrupted(); ++frame)
+    {
+        append(times.passes,
+               m_device.run([&](vk::FrameGraph& graph) { m_renderer.settle(graph, subject(), m_frame); }));
+        progress.within(static_cast<double>(frame + 1) / (count + m_options.sampleCount()),
+                        fmt::format("light settles, {}/{} frames", frame + 1, count));
+    }
+}
+
+// begin: of the picture, from which the time limit counts.
+void Renderer::addSamples(Clock::time_point begin, Progress& progress, PictureTimes& times)
+{
+    const std::uint32_t asked = m_options.sampleCount();
+    const auto goesOn = [&]
+    {
+        const std::chrono::duration<double> seconds = Clock::now() - begin;
+        const bool has_time = !m_options.time_limit || seconds.count() < *m_options.time_limit;
+        return times.samples == 0 || (times.samples < asked && !interrupted() && has_time);
+    };
+    m_renderer.beginPicture(m_frame);
+    while (goesOn())
+    {
+        append(times.passes,
+               m_device.run([&](vk::FrameGraph& graph) { m_renderer.addSample(graph, subject(), m_frame); }));
+        ++times.samples;
+        progress.within(static_cast<double>(times.samples) / asked, fmt::format("{}/{} samples", times.samples, asked));
+    }
+    if (times.samples < asked)
+    {
+        talk(fmt::format("stopped after {} of {} samples a pixel", times.samples, asked));
+    }
+}
+
+std::vector<std::uint8_t> Renderer::encodePicture()
+{
+    const TraceBuffers& buffers = m_renderer.buffers();
+    const std::vector<gpu::uint> texels = m_device.download(buffers.image);
+    return encodePng(buffers.width, buffers.height,
+                     {reinterpret_cast<const std::uint8_t*>(texels.data()), texels.size() * sizeof(gpu::uint)});
+}
+
+std::vector<std::uint8_t> Renderer::encodeSamples(PictureTimes& times)
+{
+    const std::string extension = extensionOf(m_options.output.path);
+    if (extension == ".exr" || extension == ".hdr")
+    {
+        const SampledPicture picture = m_renderer.samples(m_frame);
+        const HdrImage image =
+            pictureOf(m_device.download(picture.sums), picture.width, picture.height, picture.sample_count);
+        return extension == ".hdr" ? encodeHdr(image) : m_options.aovs ? encodeWithAovs(image) : encodeExr(image);
+    }
+    m_device.run([&](vk::FrameGraph& graph) { m_renderer.develop(graph, m_frame); });
+    times.exposure = m_device.download(m_renderer.exposure()).front();
+    return encodePicture();
+}
+
+std::vector<std::uint8_t> Renderer::encodeWithAovs(const HdrImage& image)
+{
+    const GuidedPicture guided = m_renderer.guided();
+    const AovImages aovs =
+        aovsOf(m_device.download(guided.features), image.width, image.height, guided.picture.sample_count, m_tree->grid,
+               guided.camera, m_camera_before.value_or(guided.camera));
+    std::vector<ExrChannel> channels = {{"depth.Z", aovs.depth.data()}};
+    const auto add = [&](const std::string& layer, const char* names, const float* values, std::size_t count)
+    {
+        for (std::size_t i = 0; i < count; ++i)
+        {
+            channels.push_back({layer + '.' + names[i], values + i, count});
+        }
+    };
+    add("albedo", "RGB", &aovs.albedo.front().x, 3);
+    add("normal", "XYZ", &aovs.normal.front().x, 3);
+    add("motion", "XY", &aovs.motion.front().x, 2);
+    return encodeExr(image, channels);
 }
 
 } // namespace zvo::cli

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "core/scene/camera.h"
-#include "core/trace/tree_tracer.h"
-#include "core/tree/device_tree.h"
-#include "light_renderer.h"
+#include "common/progress.h"
+#include "common/signals.h"
+#include "core/frame/frame_renderer.h"
 #include "options.h"
 #include "vk/headless.h"
 
+#include <chrono>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -22,42 +22,57 @@ struct PictureTimes
     double trace_ms = 0;           // beam and primary rays
     double shade_ms = 0;           // shadow and occlusion rays, and colour
     std::uint32_t samples = 0;     // a pixel; 0: by primary rays, otherwise all is in trace_ms
-    std::optional<float> exposure; // of paths; nothing where the picture holds radiance as it is
+    std::optional<float> exposure; // of samples; nothing where the picture holds radiance as it is
 };
 
-/// Renders pictures of one size, of one or several octrees or DAGs. The buffers are made for the first picture, so that
-/// memory that only pictures need cannot keep a tree from being made.
+/// Renders pictures of one size, of one or several octrees or DAGs, and waits for each. The buffers are made for the
+/// first picture, so that memory that only pictures need cannot keep a tree from being made.
 class Renderer
 {
 public:
+    /// Reads the environment map, if one was asked for. Throws Error{Input}, Error{Memory}.
     Renderer(vk::HeadlessDevice& device, const RenderOptions& options);
 
     /// Sets the tree that is shown from now on; it must outlive that. Call it again whenever the tree has changed.
     /// Returns the passes that were needed. Throws Error{Memory} for a picture that is too large.
     std::vector<vk::PassTime> show(const DeviceTree& tree);
 
-    /// The picture as a file: a PNG, or of paths what the output's name tells.
+    /// The picture as a file: a PNG, or of samples what the output's name tells. Of samples, stops early at the time
+    /// limit, or when the user interrupts; then the picture shows those so far.
     std::vector<std::uint8_t> render(const ViewCamera& view, Progress& progress, PictureTimes& times);
 
     /// Whether the user has interrupted a picture: then no other one should begin.
-    [[nodiscard]] bool interrupted() const { return m_light && m_light->interrupted(); }
+    [[nodiscard]] bool interrupted() const { return m_watch && m_watch->interrupted(); }
 
     /// The number of rays of all pictures that were given up.
     [[nodiscard]] std::uint64_t cappedRays() const { return m_capped_rays; }
 
     /// What is kept on voxels; null for other integrators.
-    [[nodiscard]] const RadianceCache* kept() const { return m_light ? m_light->kept() : nullptr; }
+    [[nodiscard]] const RadianceCache* kept() { return keepsLight(m_frame.integrator) ? &m_renderer.cache() : nullptr; }
 
 private:
-    std::optional<std::vector<std::uint8_t>> renderLight(const ViewCamera& view, Progress& progress,
-                                                         PictureTimes& times);
+    using Clock = std::chrono::steady_clock;
+
+    void setSize();
+    [[nodiscard]] FrameSubject subject() { return {*m_tree, *m_camera, &*m_environment}; }
+    std::vector<std::uint8_t> renderPrimary(PictureTimes& times);
+    std::optional<std::vector<std::uint8_t>> renderSamplesOrWarn(Progress& progress, PictureTimes& times);
+    std::vector<std::uint8_t> renderSamples(Progress& progress, PictureTimes& times);
+    void settle(Progress& progress, PictureTimes& times);
+    void addSamples(Clock::time_point begin, Progress& progress, PictureTimes& times);
+    std::vector<std::uint8_t> encodePicture();
+    std::vector<std::uint8_t> encodeSamples(PictureTimes& times);
+    [[nodiscard]] std::vector<std::uint8_t> encodeWithAovs(const HdrImage& image);
 
     vk::HeadlessDevice& m_device;
     const RenderOptions& m_options;
-    TraceOptions m_trace;
-    TreeTracer m_tracer;
-    std::optional<LightRenderer> m_light; // where pictures have samples
-    const DeviceTree* m_tree = nullptr;   // the tree that is shown
+    FrameOptions m_frame;
+    FrameRenderer m_renderer;
+    std::optional<DeviceEnvironment> m_environment; // where pictures have samples
+    std::optional<InterruptWatch> m_watch;          // from the first picture with samples on
+    const DeviceTree* m_tree = nullptr;             // the tree that is shown
+    std::optional<TraceCamera> m_camera;            // of the last picture
+    std::optional<TraceCamera> m_camera_before;     // of the one before
     std::uint64_t m_capped_rays = 0;
 };
 

@@ -8,7 +8,6 @@
 #include "api/kept_light_impl.h"
 #include "api/tree_impl.h"
 #include "core/radiance/kept_light_table.h"
-#include "core/radiance/radiance_tracer.h"
 
 #include <cstddef>
 #include <deque>
@@ -30,17 +29,15 @@ constexpr std::size_t kCounts = 2;
 
 KeptLight::Impl::Impl(Context::Impl& context_impl, const KeptLightInfo& light_info)
     : context(context_impl), info(checked(light_info)),
-      tracer(std::make_unique<TreeTracer>(context.device, &context.deletion_queue)),
-      cache(std::make_unique<RadianceCache>(context.device, &context.deletion_queue)),
+      renderer(std::make_unique<FrameRenderer>(context.device, &context.deletion_queue)),
       table(context.device, "kept light table", 1)
 {
-    tracer->resize(info.width, info.height);
+    renderer->resize(info.width, info.height);
 }
 
 KeptLight::Impl::~Impl()
 {
-    context.deleteLater(std::move(tracer));
-    context.deleteLater(std::move(cache));
+    context.deleteLater(std::move(renderer));
     context.deleteLater(std::move(table));
     for (Report& report : m_reports)
     {
@@ -53,28 +50,34 @@ void KeptLight::Impl::update(Recorder& recorder, const DeviceTree& tree, const S
                              const KeptFrameInfo& frame_info)
 {
     const TraceCamera camera = traceCamera(viewOf(camera_info), tree.grid, info.height);
-    const RadianceOptions options = {.faces = checked(frame_info).rays, .seed = frame_info.seed};
+    FrameOptions options;
+    options.integrator = Integrator::Cached;
+    options.radiance = {.faces = checked(frame_info).rays, .seed = frame_info.seed};
     recording(recorder,
               [&](Recorder::Impl& impl)
               {
                   learn();
                   if (m_frame && m_frame->is_lost)
                   {
-                      tracer->forget();
-                      cache->forget();
+                      renderer->forgetNodePaths();
+                      renderer->cache().forget();
                   }
                   m_frame = impl.frame;
                   environment.enter(impl.frame);
                   try
                   {
                       follow(now);
-                      addFrame(impl.graph, tree, environment.light, camera, options);
-                      publish(impl.graph, keptLightTable(*cache, environment.light));
+                      if (info.faces != 0)
+                      {
+                          renderer->cache().reserveFaces(info.faces);
+                      }
+                      renderer->settle(impl.graph, {tree, camera, &environment.light}, options);
+                      publish(impl.graph, keptLightTable(renderer->cache(), environment.light));
                       report(impl);
                   }
                   catch (...) // buffers may have been replaced, and hold no light that is complete
                   {
-                      cache->forget();
+                      renderer->cache().forget();
                       publish(impl.graph, {});
                       throw;
                   }
@@ -87,24 +90,12 @@ void KeptLight::Impl::follow(const Shown& now)
     const std::optional<Shown> before = std::exchange(m_shown, now);
     if (before && !(before->grid == now.grid))
     {
-        cache->forget(); // a cell is another place
+        renderer->cache().forget(); // a cell is another place
     }
     else if (before && (before->tree != now.tree || before->changes != now.changes))
     {
-        cache->noteChange();
+        renderer->cache().noteChange();
     }
-}
-
-void KeptLight::Impl::addFrame(vk::FrameGraph& graph, const DeviceTree& tree, DeviceEnvironment& environment,
-                               const TraceCamera& camera, const RadianceOptions& options)
-{
-    if (info.faces != 0)
-    {
-        cache->reserveFaces(info.faces);
-    }
-    const TraceCamera through = shifted(camera, pointOfPixel(cache->frameCount()));
-    tracer->tracePrimary(graph, tree, through, {});
-    cache->update(graph, tree, environment, through, tracer->buffers(), options);
 }
 
 void KeptLight::Impl::publish(vk::FrameGraph& graph, const gpu::KeptLightTable& values)
@@ -125,7 +116,7 @@ void KeptLight::Impl::report(Recorder::Impl& recorder)
     {
         counts = {context.device, "kept light counts", kCounts, vk::MemoryKind::Readback};
     }
-    recorder.graph.copy(cache->counters(), 0, counts, 0, counts.bytes());
+    recorder.graph.copy(renderer->cache().counters(), 0, counts, 0, counts.bytes());
     recorder.graph.releaseToHost(); // what learn() reads
     m_reports.push_back({recorder.frame, std::move(counts)});
 }
@@ -148,7 +139,8 @@ void KeptLight::Impl::learn()
 
 void KeptLight::Impl::requireShown(const DeviceTree& tree) const
 {
-    if (!m_shown || m_shown->version != tree.version || (m_frame && m_frame->is_lost) || cache->frameCount() == 0)
+    if (!m_shown || m_shown->version != tree.version || (m_frame && m_frame->is_lost) ||
+        renderer->cache().frameCount() == 0)
     {
         throw Error(ErrorCode::Usage, "no light is kept for this tree as it is: KeptLight::update() comes first");
     }
@@ -200,7 +192,7 @@ std::uint64_t KeptLight::address() const
 
 void KeptLight::forget()
 {
-    usable(*this).cache->forget();
+    usable(*this).renderer->cache().forget();
 }
 
 KeptLightStats KeptLight::stats()
@@ -213,7 +205,7 @@ KeptLightStats KeptLight::stats()
 std::uint64_t KeptLight::bytes() const
 {
     const Impl& light = usable(*this);
-    return light.tracer->buffers().bytes() + light.cache->bytes() + light.table.bytes();
+    return light.renderer->bytes() + light.table.bytes();
 }
 
 } // namespace zvo

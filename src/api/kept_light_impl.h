@@ -3,8 +3,7 @@
 
 #include "api/context_impl.h"
 #include "api/environment_impl.h"
-#include "core/radiance/radiance_cache.h"
-#include "core/trace/tree_tracer.h"
+#include "core/frame/frame_renderer.h"
 #include "zvo/kept_light.h"
 
 #include <cstdint>
@@ -43,8 +42,7 @@ struct ZVO_LOCAL KeptLight::Impl
 
     Context::Impl& context;
     KeptLightInfo info;
-    std::unique_ptr<TreeTracer> tracer; // of the camera's rays
-    std::unique_ptr<RadianceCache> cache;
+    std::unique_ptr<FrameRenderer> renderer; // of the camera's rays; keeps the light
     vk::BufferOf<gpu::KeptLightTable> table;
     KeptLightStats newest = {};
 
@@ -57,8 +55,6 @@ private:
     };
 
     void follow(const Shown& now);
-    void addFrame(vk::FrameGraph& graph, const DeviceTree& tree, DeviceEnvironment& environment,
-                  const TraceCamera& camera, const RadianceOptions& options);
     void publish(vk::FrameGraph& graph, const gpu::KeptLightTable& values);
     void report(Recorder::Impl& recorder);
 

@@ -8,17 +8,14 @@
 #include "api/environment_impl.h"
 #include "api/kept_light_impl.h"
 #include "api/tree_impl.h"
-#include "core/denoise/denoiser.h"
-#include "core/path/path_tracer.h"
+#include "core/frame/frame_renderer.h"
 #include "core/present/image_target.h"
-#include "core/radiance/radiance_view.h"
-#include "core/scene/camera.h"
 #include "core/trace/trace_depth.h"
-#include "core/trace/tree_tracer.h"
 
 #include <fmt/format.h>
 
-#include <optional>
+#include <memory>
+#include <utility>
 
 namespace zvo
 {
@@ -26,31 +23,40 @@ namespace zvo
 namespace
 {
 
-TraceOptions optionsOf(const TraceInfo& info)
+FrameOptions optionsOf(const TraceInfo& info)
 {
-    TraceOptions options;
-    options.view = checked(info).view;
-    options.shadows = info.shadows;
-    options.to_sun = toGlm(info.to_sun);
-    options.sun = info.sun;
-    options.exposure = info.exposure;
-    options.occlusion_rays = info.occlusion_rays;
-    options.occlusion_reach = info.occlusion_reach;
-    options.detail_pixels = info.detail_pixels;
+    FrameOptions options;
+    options.trace.view = checked(info).view;
+    options.trace.shadows = info.shadows;
+    options.trace.to_sun = toGlm(info.to_sun);
+    options.trace.sun = info.sun;
+    options.trace.occlusion_rays = info.occlusion_rays;
+    options.trace.occlusion_reach = info.occlusion_reach;
+    options.trace.detail_pixels = info.detail_pixels;
+    options.exposure.factor = info.exposure;
     return options;
 }
 
-PathOptions pathOptionsOf(const PathInfo& info)
+FrameOptions optionsOf(const PathInfo& info)
 {
-    checked(info);
-    PathOptions options;
-    options.bounces = info.bounces;
-    options.seed = info.seed;
-    options.lens_radius = info.lens_radius;
-    options.focus_distance = info.focus_distance;
-    options.roulette = info.roulette;
-    options.reseeds = info.denoise; // earlier pictures help if they have other noise
-    options.features = info.denoise;
+    FrameOptions options;
+    options.integrator = Integrator::Path;
+    options.path.bounces = checked(info).bounces;
+    options.path.seed = info.seed;
+    options.path.lens_radius = info.lens_radius;
+    options.path.focus_distance = info.focus_distance;
+    options.path.roulette = info.roulette;
+    options.denoise = info.denoise;
+    options.history_max = info.history_max;
+    options.exposure = {info.automatic_exposure, info.exposure};
+    return options;
+}
+
+FrameOptions optionsOf(const KeptPictureInfo& info)
+{
+    FrameOptions options;
+    options.integrator = Integrator::Cached;
+    options.exposure = {checked(info).automatic_exposure, info.exposure};
     return options;
 }
 
@@ -62,58 +68,21 @@ void requireImage(const ImageTarget& target, const char* name)
     }
 }
 
-// The samples of tracePaths(), and what makes pictures of them.
-struct PathPicture
-{
-    explicit PathPicture(Context::Impl& context)
-        : tracer(context.device, &context.deletion_queue), denoiser(context.device, &context.deletion_queue),
-          developer(context.device)
-    {
-    }
-
-    void forget()
-    {
-        tracer.forget();
-        denoiser.forget();
-        sample_count = 0;
-    }
-
-    PathTracer tracer;
-    Denoiser denoiser;
-    Developer developer;
-    std::shared_ptr<FrameState> frame = nullptr; // of the last call
-    std::uint32_t sample_count = 0;              // of the picture that it has recorded; 0: none
-};
-
-// What makes pictures of kept light.
-struct KeptPicture
-{
-    KeptPicture(Context::Impl& context, const TraceBuffers& buffers)
-        : view(context.device, buffers.width, buffers.height), developer(context.device)
-    {
-    }
-
-    RadianceView view;
-    Developer developer;
-};
-
 } // namespace
 
 struct ZVO_LOCAL Tracer::Impl
 {
     Impl(Context::Impl& context_impl, std::uint32_t width, std::uint32_t height, VkFormat format)
         : context(context_impl),
-          tracer(std::make_unique<TreeTracer>(context.device, &context.deletion_queue, texelFormat(format)))
+          renderer(std::make_unique<FrameRenderer>(context.device, &context.deletion_queue, texelFormat(format)))
     {
-        tracer->resize(checkedEdge(width), checkedEdge(height));
+        renderer->resize(checkedEdge(width), checkedEdge(height));
     }
 
     ~Impl()
     {
-        context.deleteLater(std::move(tracer));
+        context.deleteLater(std::move(renderer));
         context.deleteLater(std::move(depths));
-        context.deleteLater(std::move(paths));
-        context.deleteLater(std::move(kept));
     }
 
     Impl(const Impl&) = delete;
@@ -122,33 +91,27 @@ struct ZVO_LOCAL Tracer::Impl
     void trace(Recorder& recorder, const DeviceTree& tree, const CameraInfo& camera_info, const TraceInfo& info,
                const ImageTarget& color, const DepthTarget* depth)
     {
-        const TraceBuffers& buffers = tracer->buffers();
         requireColor(color);
         if (depth != nullptr)
         {
             requireImage(checked(*depth).image, "DepthTarget::image");
-            requireDepthCopyable(context.device, {buffers.width, buffers.height}, depth->image);
+            requireDepthCopyable(context.device, size(), depth->image);
         }
-        const Grid& grid = tree.grid;
-        const TraceCamera camera = traceCamera(viewOf(camera_info), grid, buffers.height);
-        const TraceOptions options = optionsOf(info);
+        const TraceCamera camera = cameraOf(camera_info, tree);
+        const FrameOptions options = optionsOf(info);
         recording(recorder,
                   [&](Recorder::Impl& impl)
                   {
-                      if (frame && frame->is_lost)
-                      {
-                          tracer->forget();
-                      }
-                      frame = impl.frame;
-                      tracer->trace(impl.graph, tree, camera, options);
+                      enter(impl);
+                      renderer->render(impl.graph, {tree, camera}, options);
                       if (depth != nullptr)
                       {
-                          traceDepthOf(impl.graph, grid, camera, *depth);
+                          traceDepthOf(impl.graph, tree.grid, camera, *depth);
                       }
-                      copyToImage(impl.graph, buffers, color);
+                      copyToImage(impl.graph, renderer->buffers(), color);
                       if (depth != nullptr)
                       {
-                          copyDepthToImage(impl.graph, depths, {buffers.width, buffers.height}, depth->image);
+                          copyDepthToImage(impl.graph, depths, size(), depth->image);
                       }
                   });
     }
@@ -156,93 +119,81 @@ struct ZVO_LOCAL Tracer::Impl
     void tracePaths(Recorder& recorder, const DeviceTree& tree, Environment::Impl& environment,
                     const CameraInfo& camera_info, const PathInfo& info, const ImageTarget& color)
     {
-        const TraceBuffers& buffers = tracer->buffers();
         requireColor(color);
-        const TraceCamera camera = traceCamera(viewOf(camera_info), tree.grid, buffers.height);
-        const PathOptions options = pathOptionsOf(info);
+        const TraceCamera camera = cameraOf(camera_info, tree);
+        const FrameOptions options = optionsOf(info);
         recording(recorder,
                   [&](Recorder::Impl& impl)
                   {
-                      makePaths();
-                      if (paths->sample_count == 0 || (paths->frame && paths->frame->is_lost))
+                      if (sample_count == 0 || lostSamples())
                       {
-                          paths->forget();
+                          renderer->forgetSamples();
                       }
-                      paths->frame = impl.frame;
-                      paths->sample_count = 0; // should anything below throw
+                      path_frame = impl.frame;
+                      sample_count = 0; // should anything below throw
                       environment.enter(impl.frame);
                       for (std::uint32_t i = 0; i < info.samples; ++i)
                       {
-                          paths->tracer.addSample(impl.graph, tree, environment.light, camera, options);
+                          renderer->addSample(impl.graph, {tree, camera, &environment.light}, options);
                       }
-                      if (info.denoise)
-                      {
-                          paths->denoiser.resize(buffers.width, buffers.height);
-                          paths->denoiser.denoise(impl.graph, paths->tracer.guided(), info.history_max);
-                      }
-                      const SampledPicture shown = info.denoise ? paths->denoiser.picture() : paths->tracer.picture();
-                      const Exposure exposure = {info.automatic_exposure, info.exposure};
-                      paths->developer.develop(impl.graph, shown, buffers.texels, exposure, tracer->image());
-                      copyToImage(impl.graph, buffers, color);
-                      paths->sample_count = paths->tracer.sampleCount();
+                      renderer->denoise(impl.graph, options);
+                      renderer->develop(impl.graph, options);
+                      copyToImage(impl.graph, renderer->buffers(), color);
+                      sample_count = renderer->pathCount();
                   });
     }
 
     void traceKept(Recorder& recorder, const DeviceTree& tree, Environment::Impl& environment, KeptLight::Impl& light,
                    const CameraInfo& camera_info, const KeptPictureInfo& info, const ImageTarget& color)
     {
-        const TraceBuffers& buffers = tracer->buffers();
         requireColor(color);
-        const TraceCamera camera = traceCamera(viewOf(camera_info), tree.grid, buffers.height);
-        const Exposure exposure = {checked(info).automatic_exposure, info.exposure};
+        const TraceCamera camera = cameraOf(camera_info, tree);
+        const FrameOptions options = optionsOf(info);
         light.requireShown(tree);
-        recording(recorder,
-                  [&](Recorder::Impl& impl)
-                  {
-                      if (kept == nullptr)
-                      {
-                          kept = std::make_unique<KeptPicture>(context, buffers);
-                      }
-                      if (frame && frame->is_lost)
-                      {
-                          tracer->forget();
-                      }
-                      frame = impl.frame;
-                      environment.enter(impl.frame);
-                      environment.light.prepare(impl.graph);
-                      tracer->tracePrimary(impl.graph, tree, camera, {});
-                      kept->view.begin();
-                      kept->view.add(impl.graph, *light.cache, tree, environment.light, camera, buffers);
-                      kept->developer.develop(impl.graph, kept->view.picture(), buffers.texels, exposure,
-                                              tracer->image());
-                      copyToImage(impl.graph, buffers, color);
-                  });
+        recording(
+            recorder,
+            [&](Recorder::Impl& impl)
+            {
+                enter(impl);
+                environment.enter(impl.frame);
+                renderer->render(impl.graph, {tree, camera, &environment.light, &light.renderer->cache()}, options);
+                copyToImage(impl.graph, renderer->buffers(), color);
+            });
     }
 
-    void makePaths()
+    // Begins a picture of primary rays in a frame.
+    void enter(Recorder::Impl& impl)
     {
-        if (paths == nullptr)
+        if (frame && frame->is_lost)
         {
-            auto made = std::make_unique<PathPicture>(context);
-            made->tracer.resize(tracer->buffers().width, tracer->buffers().height);
-            paths = std::move(made);
+            renderer->forgetNodePaths();
         }
+        frame = impl.frame;
+    }
+
+    [[nodiscard]] bool lostSamples() const { return path_frame && path_frame->is_lost; }
+
+    [[nodiscard]] PictureSize size() const { return {renderer->buffers().width, renderer->buffers().height}; }
+
+    [[nodiscard]] TraceCamera cameraOf(const CameraInfo& info, const DeviceTree& tree) const
+    {
+        return traceCamera(viewOf(info), tree.grid, size().height);
     }
 
     void requireColor(const ImageTarget& color)
     {
-        if (texelFormat(color.format) != tracer->buffers().texels)
+        if (texelFormat(color.format) != renderer->buffers().texels)
         {
             throw Error(ErrorCode::Usage, "this Tracer makes pictures for images of another format: make one with "
                                           "the format of the image");
         }
         requireImage(color, "color");
-        requireCopyable(tracer->buffers(), color);
+        requireCopyable(renderer->buffers(), color);
     }
 
     void traceDepthOf(vk::FrameGraph& graph, const Grid& grid, const TraceCamera& camera, const DepthTarget& target)
     {
-        const TraceBuffers& buffers = tracer->buffers();
+        const TraceBuffers& buffers = renderer->buffers();
         if (depths.count() == 0)
         {
             depths = {context.device, "depth", primaryRayCount(buffers)};
@@ -251,11 +202,11 @@ struct ZVO_LOCAL Tracer::Impl
     }
 
     Context::Impl& context;
-    std::unique_ptr<TreeTracer> tracer;
-    std::shared_ptr<FrameState> frame = nullptr;  // of the last picture of trace() or traceKept()
-    vk::BufferOf<float> depths = {};              // empty until depth is requested
-    std::unique_ptr<PathPicture> paths = nullptr; // null until paths are requested
-    std::unique_ptr<KeptPicture> kept = nullptr;  // likewise of kept light
+    std::unique_ptr<FrameRenderer> renderer;
+    std::shared_ptr<FrameState> frame = nullptr;      // of the last picture of trace() or traceKept()
+    std::shared_ptr<FrameState> path_frame = nullptr; // of the last picture of tracePaths()
+    std::uint32_t sample_count = 0;                   // of the picture that it has recorded; 0: none
+    vk::BufferOf<float> depths = {};                  // empty until depth is requested
 };
 
 Tracer::Tracer(Context& context, std::uint32_t width, std::uint32_t height, VkFormat format)
@@ -341,16 +292,15 @@ void Tracer::traceKept(Recorder& recorder, DynamicTree& tree, Environment& envir
 
 std::uint32_t Tracer::sampleCount() const
 {
-    const PathPicture* const paths = contentOf(m_impl.get(), "tracer").paths.get();
-    return paths == nullptr || (paths->frame && paths->frame->is_lost) ? 0 : paths->sample_count;
+    const Impl& tracer = contentOf(m_impl.get(), "tracer");
+    return tracer.lostSamples() ? 0 : tracer.sample_count;
 }
 
 void Tracer::forgetSamples()
 {
-    if (PathPicture* const paths = contentOf(m_impl.get(), "tracer").paths.get())
-    {
-        paths->forget();
-    }
+    Impl& tracer = contentOf(m_impl.get(), "tracer");
+    tracer.renderer->forgetSamples();
+    tracer.sample_count = 0;
 }
 
 } // namespace zvo

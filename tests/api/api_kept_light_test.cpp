@@ -2,7 +2,7 @@
 // Light that is kept on voxels, as a host has it in the course of its frames.
 #include "api/context_impl.h"
 #include "api_scene.h"
-#include "core/radiance/radiance_tracer.h"
+#include "core/frame/frame_renderer.h"
 #include "core/radiance/radiance_view.h"
 #include "core/trace/tree_tracer.h"
 #include "expect_usage.h"

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // What a host's kernel finds through cones by zvo/trace.glsl, against known answers and many rays.
 #include "core/dynamic/dynamic_octree.h"
+#include "core/frame/frame_renderer.h"
 #include "core/radiance/kept_light_table.h"
-#include "core/radiance/radiance_tracer.h"
 #include "core/tree/tree_table.h"
 #include "glsl/host_device.h"
 #include "oracle/morton.h"
@@ -82,7 +82,10 @@ public:
         const TraceCamera camera = traceCamera(view, tree.grid, 64);
         for (std::uint32_t i = 0; i < frames; ++i)
         {
-            deviceOfHosts().run([&](vk::FrameGraph& graph) { m_tracer.addFrame(graph, tree, m_sky, camera, {}); });
+            deviceOfHosts().run(
+                [&](vk::FrameGraph& graph) {
+                    m_tracer.addSample(graph, {tree, camera, &m_sky}, cachedOptions());
+                });
         }
     }
 
@@ -120,7 +123,7 @@ public:
 
 private:
     DeviceEnvironment m_sky;
-    RadianceTracer m_tracer;
+    FrameRenderer m_tracer;
 };
 
 // The aperture whose cone is so wide at a distance.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What a host's kernel finds of kept light by zvo/trace.glsl, against known answers and zvo's own pictures.
+#include "core/frame/frame_renderer.h"
 #include "core/radiance/kept_light_table.h"
-#include "core/radiance/radiance_tracer.h"
 #include "core/tree/tree_table.h"
 #include "glsl/host_device.h"
 #include "support/lit_voxels.h"
@@ -69,7 +69,10 @@ struct Lit
         const TraceCamera camera = traceCamera(view, tree.grid, 64);
         for (std::uint32_t i = 0; i < frames; ++i)
         {
-            deviceOfHosts().run([&](vk::FrameGraph& graph) { tracer.addFrame(graph, tree, environment, camera, {}); });
+            deviceOfHosts().run(
+                [&](vk::FrameGraph& graph) {
+                    tracer.addSample(graph, {tree, camera, &environment}, cachedOptions());
+                });
         }
     }
 
@@ -111,7 +114,7 @@ struct Lit
 
     DeviceTree tree;
     DeviceEnvironment environment;
-    RadianceTracer tracer;
+    FrameRenderer tracer;
 };
 
 const LitVoxel kWhite = {{}, glm::uvec3(255), glm::vec3(0.0F)};
@@ -250,12 +253,14 @@ TEST(HostKeptLight, OfHitsIsThatOfZvosPicture)
     test::addBox(voxels, {4, 1, 4}, {8, 6, 7}, kWhite);
     const ViewCamera view = ViewCamera::lookAt({13.0, 9.0, 13.5}, {5.0, 5.0, 5.0}, 1.2);
     Lit lit(voxels, 4, skyOf(glm::vec3(0.0F)), view, 300);
-    lit.tracer.beginPicture();
+    lit.tracer.beginPicture(cachedOptions());
     constexpr std::uint32_t kEdge = 64;
     const TraceCamera camera = traceCamera(view, lit.tree.grid, kEdge);
-    deviceOfHosts().run([&](vk::FrameGraph& graph)
-                        { lit.tracer.addFrame(graph, lit.tree, lit.environment, camera, {}); });
-    const SampledPicture sampled = lit.tracer.picture();
+    deviceOfHosts().run(
+        [&](vk::FrameGraph& graph) {
+            lit.tracer.addSample(graph, {lit.tree, camera, &lit.environment}, cachedOptions());
+        });
+    const SampledPicture sampled = lit.tracer.samples(cachedOptions());
     const HdrImage picture = pictureOf(deviceOfHosts().download(sampled.sums), kEdge, kEdge, 1);
     std::vector<Place> places;
     for (std::uint32_t i = 0; i < kEdge * kEdge; ++i)

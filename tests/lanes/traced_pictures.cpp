@@ -2,10 +2,10 @@
 #include "lanes/traced_pictures.h"
 
 #include "core/denoise/denoiser.h"
+#include "core/frame/frame_renderer.h"
 #include "core/headless/attribute_packer.h"
 #include "core/path/path_tracer.h"
 #include "core/present/present.h"
-#include "core/radiance/radiance_tracer.h"
 #include "core/trace/trace.h"
 #include "core/trace/trace_depth.h"
 #include "support/engine_device.h"
@@ -101,18 +101,21 @@ KernelNames tracePaths(const DeviceTree& tree)
 KernelNames keepLight(const DeviceTree& tree)
 {
     DeviceEnvironment sky(device().device());
-    RadianceTracer tracer(device().device());
+    FrameRenderer tracer(device().device());
     const ViewCamera view = ViewCamera::lookAt({25.0, 22.0, 31.0}, {8.0, 8.0, 8.0}, 0.7);
     KernelNames names;
     for (const std::uint32_t height : {10U, 11U})
     {
         tracer.resize(9, height);
         const TraceCamera camera = traceCamera(view, tree.grid, height);
-        const KeptView kind = height == 10 ? KeptView::Faces : KeptView::Cones;
+        const FrameOptions options = {.integrator = height == 10 ? Integrator::Cached : Integrator::Cones,
+                                      .radiance = {.faces = 100}};
         for (std::uint32_t frame = 0; frame < 2; ++frame)
         {
-            addNames(names, device().run([&](vk::FrameGraph& graph)
-                                         { tracer.addFrame(graph, tree, sky, camera, {.faces = 100}, kind); }));
+            addNames(names, device().run(
+                                [&](vk::FrameGraph& graph) {
+                                    tracer.addSample(graph, {tree, camera, &sky}, options);
+                                }));
         }
     }
     return names;

@@ -43,19 +43,30 @@ std::map<FaceName, FaceLight> facesOf(std::span<const gpu::KeptFace> table, std:
     return faces;
 }
 
-void runFrames(RadianceTracer& tracer, const DeviceTree& tree, DeviceEnvironment& environment, const ViewCamera& view,
+FrameOptions cachedOptions(const RadianceOptions& radiance, KeptView kind)
+{
+    FrameOptions options;
+    options.integrator = kind == KeptView::Cones ? Integrator::Cones : Integrator::Cached;
+    options.radiance = radiance;
+    return options;
+}
+
+void runFrames(FrameRenderer& tracer, const DeviceTree& tree, DeviceEnvironment& environment, const ViewCamera& view,
                std::uint32_t count, const RadianceOptions& options, KeptView kind)
 {
     const TraceCamera camera = traceCamera(view, tree.grid, tracer.buffers().height);
     for (std::uint32_t i = 0; i < count; ++i)
     {
-        device().run([&](vk::FrameGraph& graph) { tracer.addFrame(graph, tree, environment, camera, options, kind); });
+        device().run(
+            [&](vk::FrameGraph& graph) {
+                tracer.addSample(graph, {tree, camera, &environment}, cachedOptions(options, kind));
+            });
     }
 }
 
-PathPicture pictureOf(RadianceTracer& tracer)
+PathPicture pictureOf(FrameRenderer& tracer)
 {
-    const SampledPicture sampled = tracer.picture();
+    const SampledPicture sampled = tracer.samples(cachedOptions());
     const std::vector<gpu::PixelSum> sums = device().download(sampled.sums);
     PathPicture picture;
     picture.pixels.resize(sums.size());
@@ -72,13 +83,13 @@ PathPicture pictureOf(RadianceTracer& tracer)
     return picture;
 }
 
-PathPicture settledPicture(RadianceTracer& tracer, const DeviceTree& tree, DeviceEnvironment& environment,
+PathPicture settledPicture(FrameRenderer& tracer, const DeviceTree& tree, DeviceEnvironment& environment,
                            const ViewCamera& view, std::uint32_t edge, std::uint32_t settle, std::uint32_t frames,
                            const RadianceOptions& options, KeptView kind)
 {
     tracer.resize(edge, edge);
     runFrames(tracer, tree, environment, view, settle, options);
-    tracer.beginPicture();
+    tracer.beginPicture(cachedOptions(options));
     runFrames(tracer, tree, environment, view, frames, options, kind);
     return pictureOf(tracer);
 }

@@ -2,7 +2,7 @@
 // Light that is kept on voxels, and pictures of it, on the device that the tests of a binary share.
 #pragma once
 
-#include "core/radiance/radiance_tracer.h"
+#include "core/frame/frame_renderer.h"
 #include "support/path_pictures.h"
 
 #include <cstdint>
@@ -40,15 +40,18 @@ struct FaceLight
 std::map<FaceName, FaceLight> facesOf(std::span<const gpu::KeptFace> table, std::uint32_t level = 0);
 std::map<FaceName, FaceLight> facesOf(RadianceCache& cache, std::uint32_t level = 0);
 
+/// Options of a picture of light that is kept.
+FrameOptions cachedOptions(const RadianceOptions& radiance = {}, KeptView kind = KeptView::Faces);
+
 /// Runs frames of a tracer, which has a size.
-void runFrames(RadianceTracer& tracer, const DeviceTree& tree, DeviceEnvironment& environment, const ViewCamera& view,
+void runFrames(FrameRenderer& tracer, const DeviceTree& tree, DeviceEnvironment& environment, const ViewCamera& view,
                std::uint32_t count, const RadianceOptions& options, KeptView kind = KeptView::Faces);
 
 /// The mean of a tracer's picture. Expects that no ray was given up.
-PathPicture pictureOf(RadianceTracer& tracer);
+PathPicture pictureOf(FrameRenderer& tracer);
 
 /// The mean of the last `frames` frames after `settle` frames, in a picture of edge * edge pixels.
-PathPicture settledPicture(RadianceTracer& tracer, const DeviceTree& tree, DeviceEnvironment& environment,
+PathPicture settledPicture(FrameRenderer& tracer, const DeviceTree& tree, DeviceEnvironment& environment,
                            const ViewCamera& view, std::uint32_t edge, std::uint32_t settle, std::uint32_t frames,
                            const RadianceOptions& options = {}, KeptView kind = KeptView::Faces);
 

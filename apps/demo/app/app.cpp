@@ -50,13 +50,14 @@ Settings settingsFor(const DemoOptions& options)
 ViewState viewOf(const DemoOptions& options, const Settings& settings)
 {
     ViewState view = settings.view;
-    view.view = options.view.value_or(view.view);
-    view.integrator = options.integrator.value_or(view.integrator);
-    view.denoise = options.denoise || view.denoise;
-    view.occlusion_rays = options.occlusion_rays.value_or(view.occlusion_rays);
-    view.to_sun = options.to_sun.value_or(view.to_sun);
-    view.exposure = options.exposure.value_or(view.exposure);
-    view.detail_pixels = options.detail_pixels.value_or(view.detail_pixels);
+    FrameOptions& frame = view.frame;
+    frame.trace.view = options.view.value_or(frame.trace.view);
+    frame.integrator = options.integrator.value_or(frame.integrator);
+    frame.denoise = options.denoise || frame.denoise;
+    frame.trace.occlusion_rays = options.occlusion_rays.value_or(frame.trace.occlusion_rays);
+    frame.trace.to_sun = options.to_sun.value_or(frame.trace.to_sun);
+    frame.exposure.factor = options.exposure.value_or(frame.exposure.factor);
+    frame.trace.detail_pixels = options.detail_pixels.value_or(frame.trace.detail_pixels);
     view.internal_scale = options.internal_scale ? options.internal_scale : view.internal_scale;
     view.present_mode = options.present_mode.value_or(view.present_mode);
     return view;

@@ -149,9 +149,9 @@ void App::pasteCamera()
 void App::changeView(int by)
 {
     const auto views = cli::allViews();
-    const auto current = std::ranges::find(views, m_view.view, &cli::NamedView::view) - views.begin();
+    const auto current = std::ranges::find(views, m_view.frame.trace.view, &cli::NamedView::view) - views.begin();
     const auto count = static_cast<std::ptrdiff_t>(views.size());
-    m_view.view = views[static_cast<std::size_t>((current + by + count) % count)].view;
+    m_view.frame.trace.view = views[static_cast<std::size_t>((current + by + count) % count)].view;
 }
 
 void App::toggleRecording()

@@ -47,7 +47,7 @@ void App::draw()
     }
     Picture picture;
     picture.camera = m_camera.camera();
-    picture.view = m_view;
+    picture.options = m_view.frame;
     picture.window = size;
     picture.internal = scaledSize(size, internalScale());
     if (!prepare(picture))
@@ -80,7 +80,7 @@ void App::draw()
         picture.inspected = frame.inspected;
         picture.report = frame.report.get();
     }
-    if (const std::uint64_t elements = m_renderer.rayListElements(m_view); elements != 0)
+    if (const std::uint64_t elements = m_renderer.rayListElements(); elements != 0)
     {
         frame.ray_lists = std::make_unique<vk::BufferOf<gpu::DispatchArgs>>(m_device.device(), "ray lists", elements,
                                                                             vk::MemoryKind::Readback);
@@ -108,9 +108,9 @@ bool App::prepare(const Picture& picture)
     }
     catch (const Error& error)
     {
-        if (error.code() == ErrorCode::Memory && keepsLight(picture.view.shownIntegrator()))
+        if (error.code() == ErrorCode::Memory && keepsLight(picture.options.shownIntegrator()))
         {
-            m_view.integrator = Integrator::Primary; // from the next frame on
+            m_view.frame.integrator = Integrator::Primary; // from the next frame on
             cli::talk(fmt::format("warning: no light is kept on voxels: {}", error.what()));
             return false;
         }

@@ -2,6 +2,7 @@
 #include "demo/app/options.h"
 
 #include "common/command_line.h"
+#include "common/integrator_name.h"
 #include "common/option_groups.h"
 #include "common/output.h"
 #include "common/parse.h"

@@ -2,11 +2,10 @@
 #pragma once
 
 #include "common/scene_options.h"
+#include "core/frame/frame_options.h"
 #include "core/present/present.h"
-#include "core/trace/trace.h"
 #include "core/tree/tree_data.h"
 #include "demo/input/elapsed.h"
-#include "demo/world/integrator.h"
 #include "vk/swapchain.h"
 #include "zvo/dynamic_tree.h"
 

@@ -2,7 +2,7 @@
 #include "demo/app/settings.h"
 
 #include "common/environment.h"
-#include "common/integrator.h"
+#include "common/integrator_name.h"
 #include "common/progress.h"
 #include "common/view.h"
 #include "core/base/read_file.h"
@@ -58,26 +58,27 @@ template <typename Read> void with(const JsonCursor& object, const char* name, R
 
 void readViewState(const JsonCursor& object, ViewState& view)
 {
+    FrameOptions& frame = view.frame;
     object.allowKeys({"view", "integrator", "denoise", "shadows", "occlusion", "sun", "exposure", "detail",
                       "internal_scale", "present"});
-    with(object, "view", [&](const JsonCursor& value) { view.view = readView(value); });
+    with(object, "view", [&](const JsonCursor& value) { frame.trace.view = readView(value); });
     with(object, "integrator",
          [&](const JsonCursor& value)
-         { view.integrator = static_cast<Integrator>(value.oneOf(cli::kIntegratorNames)); });
-    with(object, "denoise", [&](const JsonCursor& value) { view.denoise = value.flag(); });
-    with(object, "shadows", [&](const JsonCursor& value) { view.shadows = value.flag(); });
+         { frame.integrator = static_cast<Integrator>(value.oneOf(cli::kIntegratorNames)); });
+    with(object, "denoise", [&](const JsonCursor& value) { frame.denoise = value.flag(); });
+    with(object, "shadows", [&](const JsonCursor& value) { frame.trace.shadows = value.flag(); });
     with(object, "occlusion",
-         [&](const JsonCursor& value) { view.occlusion_rays = value.whole(0, kOcclusionRaysMax); });
+         [&](const JsonCursor& value) { frame.trace.occlusion_rays = value.whole(0, kOcclusionRaysMax); });
     with(object, "sun",
          [&](const JsonCursor& value)
          {
              static_cast<void>(value.direction()); // checks that not all numbers are 0; any length is allowed
-             view.to_sun = value.vector();
+             frame.trace.to_sun = value.vector();
          });
     with(object, "exposure",
-         [&](const JsonCursor& value) { view.exposure = static_cast<float>(value.positive(kExposureMax)); });
+         [&](const JsonCursor& value) { frame.exposure.factor = static_cast<float>(value.positive(kExposureMax)); });
     with(object, "detail",
-         [&](const JsonCursor& value) { view.detail_pixels = static_cast<float>(value.positive(kDetailMax)); });
+         [&](const JsonCursor& value) { frame.trace.detail_pixels = static_cast<float>(value.positive(kDetailMax)); });
     with(object, "internal_scale", [&](const JsonCursor& value) { view.internal_scale = value.positive(1); });
     with(object, "present",
          [&](const JsonCursor& value) {
@@ -120,6 +121,7 @@ Settings parseSettings(std::string_view text, const std::filesystem::path& file)
 std::string settingsText(const Settings& settings)
 {
     const ViewState& view = settings.view;
+    const FrameOptions& frame = view.frame;
     const auto views = cli::allViews();
     Json json;
     json["schema"] = kSchema;
@@ -127,16 +129,16 @@ std::string settingsText(const Settings& settings)
     json["panels"] = settings.shows_panels;
     json["keys"] = settings.shows_keys;
     Json& shown = json["view"];
-    shown["view"] = std::ranges::find(views, view.view, &cli::NamedView::view)->name;
-    shown["integrator"] = std::string(cli::nameOf(view.integrator));
-    shown["denoise"] = view.denoise;
-    shown["shadows"] = view.shadows;
-    shown["occlusion"] = view.occlusion_rays;
-    shown["sun"] = {view.to_sun.x, view.to_sun.y, view.to_sun.z};
-    shown["exposure"] = double{view.exposure};
-    if (view.detail_pixels > 0.0F)
+    shown["view"] = std::ranges::find(views, frame.trace.view, &cli::NamedView::view)->name;
+    shown["integrator"] = std::string(cli::nameOf(frame.integrator));
+    shown["denoise"] = frame.denoise;
+    shown["shadows"] = frame.trace.shadows;
+    shown["occlusion"] = frame.trace.occlusion_rays;
+    shown["sun"] = {frame.trace.to_sun.x, frame.trace.to_sun.y, frame.trace.to_sun.z};
+    shown["exposure"] = double{frame.exposure.factor};
+    if (frame.trace.detail_pixels > 0.0F)
     {
-        shown["detail"] = double{view.detail_pixels};
+        shown["detail"] = double{frame.trace.detail_pixels};
     }
     if (view.internal_scale)
     {

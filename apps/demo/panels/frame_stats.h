@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "demo/world/integrator.h"
+#include "core/frame/frame_options.h"
 #include "vk/timer.h"
 
 #include <cstddef>

@@ -20,34 +20,30 @@ namespace
 constexpr std::array kModes = {vk::PresentMode::Fifo, vk::PresentMode::Mailbox, vk::PresentMode::Immediate};
 constexpr std::array kModeNames = {"fifo (vsync)", "mailbox", "immediate"};
 
-void viewChoice(ViewState& view)
+void viewChoice(FrameOptions& frame)
 {
     const auto views = cli::allViews();
-    const auto current = std::ranges::find(views, view.view, &cli::NamedView::view);
+    const auto current = std::ranges::find(views, frame.trace.view, &cli::NamedView::view);
     if (ImGui::BeginCombo("view", std::string(current->name).c_str()))
     {
         for (const cli::NamedView& named : views)
         {
-            if (ImGui::Selectable(std::string(named.name).c_str(), named.view == view.view))
+            if (ImGui::Selectable(std::string(named.name).c_str(), named.view == frame.trace.view))
             {
-                view.view = named.view;
+                frame.trace.view = named.view;
             }
         }
         ImGui::EndCombo();
     }
 }
 
-void integratorChoice(ViewState& view)
+void integratorChoice(FrameOptions& frame)
 {
-    int chosen = static_cast<int>(view.integrator);
-    const auto name = [](void*, int index, const char** text)
+    constexpr std::array kNames = {"primary rays", "paths", "kept on voxels", "through cones"};
+    int chosen = static_cast<int>(frame.integrator);
+    if (ImGui::Combo("light", &chosen, kNames.data(), static_cast<int>(kNames.size())))
     {
-        *text = kLightNames[static_cast<std::size_t>(index)].data();
-        return true;
-    };
-    if (ImGui::Combo("light", &chosen, name, nullptr, static_cast<int>(kLightNames.size())))
-    {
-        view.integrator = static_cast<Integrator>(chosen);
+        frame.integrator = static_cast<Integrator>(chosen);
     }
 }
 
@@ -117,34 +113,35 @@ void viewPanel(ViewState& view, const ViewInfo& info)
     {
         return;
     }
-    viewChoice(view);
-    if (view.view == View::Iterations)
+    FrameOptions& frame = view.frame;
+    viewChoice(frame);
+    if (frame.trace.view == View::Iterations)
     {
         iterationsLegend();
     }
-    if (view.view == View::Color)
+    if (frame.trace.view == View::Color)
     {
-        integratorChoice(view);
+        integratorChoice(frame);
         if (info.samples)
         {
             tell(fmt::format("{} paths a pixel", *info.samples));
-            ImGui::Checkbox("denoise", &view.denoise);
+            ImGui::Checkbox("denoise", &frame.denoise);
         }
         if (info.kept_frames)
         {
             tell(fmt::format("light of {} frames, {} faces a frame at most", *info.kept_frames, info.kept_faces));
         }
-        ImGui::Checkbox(view.integrator == Integrator::Primary ? "shadows" : "sun", &view.shadows);
-        int rays = static_cast<int>(view.occlusion_rays);
+        ImGui::Checkbox(frame.integrator == Integrator::Primary ? "shadows" : "sun", &frame.trace.shadows);
+        int rays = static_cast<int>(frame.trace.occlusion_rays);
         if (ImGui::SliderInt("occlusion rays", &rays, 0, static_cast<int>(kOcclusionRaysMax), "%d",
                              ImGuiSliderFlags_AlwaysClamp))
         {
-            view.occlusion_rays = static_cast<std::uint32_t>(rays);
+            frame.trace.occlusion_rays = static_cast<std::uint32_t>(rays);
         }
-        ImGui::SliderFloat("exposure", &view.exposure, 0.05F, 20.0F, "%.2f",
+        ImGui::SliderFloat("exposure", &frame.exposure.factor, 0.05F, 20.0F, "%.2f",
                            ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp);
     }
-    ImGui::SliderFloat("detail, pixels", &view.detail_pixels, 0.0F, 16.0F, "%.1f", ImGuiSliderFlags_AlwaysClamp);
+    ImGui::SliderFloat("detail, pixels", &frame.trace.detail_pixels, 0.0F, 16.0F, "%.1f", ImGuiSliderFlags_AlwaysClamp);
     resolutionChoice(view, info);
     presentChoice(view, info);
     tell(fmt::format("speed {:.3g} units/s", info.camera_speed));

@@ -1,158 +1,67 @@
 // SPDX-License-Identifier: MIT
 #include "demo/world/renderer.h"
 
-#include "core/scene/camera.h"
-
 #include <utility>
 
 namespace zvo::demo
 {
 
-namespace
-{
-
-// Samples of earlier frames that count at most, where pictures are denoised.
-constexpr std::uint32_t kHistoryMax = 16;
-
-PathOptions pathOptionsOf(const ViewState& view)
-{
-    return {.reseeds = view.denoise, .features = view.denoise};
-}
-
-} // namespace
-
 void Renderer::begin(std::uint64_t frame, const DeviceTree& tree, const Picture& picture, bool encodes_srgb)
 {
     m_deletion_queue.beginFrame(frame);
-    m_tracer.resize(picture.internal.width, picture.internal.height);
-    m_tracer.reserve(tree);
-    prepareLight(tree, picture);
+    m_renderer.resize(picture.internal.width, picture.internal.height);
+    const Integrator integrator = picture.options.shownIntegrator();
+    if (m_options.shownIntegrator() != integrator)
+    {
+        m_renderer.dropSamples();
+    }
+    m_options = picture.options;
+    m_renderer.reserve(tree, m_options);
     if (m_compose == nullptr || m_compose->size() != picture.window || m_compose->encodesSrgb() != encodes_srgb)
     {
         auto compose = std::make_unique<ComposeImage>(m_device.device(), m_pass, picture.window, encodes_srgb);
-        m_deletion_queue.keep(std::exchange(m_compose, std::move(compose)));
+        vk::replace(&m_deletion_queue, m_compose, std::move(compose));
     }
 }
 
 std::uint64_t Renderer::pictureBytes() const
 {
-    if (m_compose == nullptr)
-    {
-        return 0;
-    }
-    std::uint64_t light_bytes = 0;
-    if (m_light != nullptr)
-    {
-        light_bytes = m_light->developer.bytes() + m_light->image.bytes() +
-                      (keepsLight(m_light->integrator) ? m_light->kept.bytes()
-                                                       : m_light->tracer.bytes() + m_light->denoiser.bytes());
-    }
-    return m_tracer.buffers().bytes() + m_compose->bytes() + light_bytes;
-}
-
-// Makes or drops what an integrator needs.
-void Renderer::prepareLight(const DeviceTree& tree, const Picture& picture)
-{
-    const Integrator integrator = picture.view.shownIntegrator();
-    if (m_light != nullptr && m_light->integrator != integrator)
-    {
-        m_deletion_queue.keep(std::exchange(m_light, nullptr));
-    }
-    if (integrator == Integrator::Primary)
-    {
-        return;
-    }
-    if (m_light == nullptr)
-    {
-        m_light = std::make_unique<Light>(m_device, &m_deletion_queue, integrator);
-    }
-    const std::uint64_t pixel_count = m_tracer.buffers().image.count();
-    if (m_light->image.count() != pixel_count)
-    {
-        vk::BufferOf<gpu::uint> image(m_device.device(), "path picture", pixel_count);
-        m_deletion_queue.keep(std::exchange(m_light->image, std::move(image)));
-    }
-    if (keepsLight(integrator))
-    {
-        m_light->kept.resize(picture.internal.width, picture.internal.height);
-        m_light->kept.reserve(tree, {});
-        return;
-    }
-    m_light->tracer.resize(picture.internal.width, picture.internal.height);
-    if (picture.view.denoise)
-    {
-        m_light->denoiser.resize(picture.internal.width, picture.internal.height);
-    }
-}
-
-void Renderer::traceLight(vk::FrameGraph& graph, const DeviceTree& tree, const TraceCamera& camera,
-                          const Picture& picture)
-{
-    const ViewState& view = picture.view;
-    const double strength = view.shadows ? TraceOptions().sun : 0.0;
-    m_light->sky.setSun({.direction = view.to_sun, .irradiance = strength * kSunColor});
-    if (keepsLight(m_light->integrator))
-    {
-        if (picture.edited)
-        {
-            m_light->kept.cache().noteChange();
-        }
-        m_light->kept.beginPicture();
-        m_light->kept.addFrame(graph, tree, m_light->sky, camera, {},
-                               m_light->integrator == Integrator::Cones ? KeptView::Cones : KeptView::Faces);
-        m_light->developer.develop(graph, m_light->kept.picture(), TexelFormat::Rgba8, {.factor = view.exposure},
-                                   m_light->image);
-        return;
-    }
-    m_light->tracer.addSample(graph, tree, m_light->sky, camera, pathOptionsOf(view), picture.ray_lists);
-    if (view.denoise)
-    {
-        m_light->denoiser.denoise(graph, m_light->tracer.guided(), kHistoryMax);
-    }
-    const SampledPicture shown = view.denoise ? m_light->denoiser.picture() : m_light->tracer.picture();
-    m_light->developer.develop(graph, shown, TexelFormat::Rgba8, {.factor = view.exposure}, m_light->image);
+    return m_compose == nullptr ? 0 : m_renderer.bytes() + m_compose->bytes();
 }
 
 void Renderer::forget()
 {
-    m_tracer.forget();
-    if (m_light != nullptr)
-    {
-        m_deletion_queue.keep(std::exchange(m_light, nullptr)); // begin() makes new ones
-    }
+    m_renderer.forgetNodePaths();
+    m_renderer.dropSamples(); // begin() makes what is needed
+    m_sky.forgetSun();
 }
 
 std::optional<std::uint32_t> Renderer::sampleCount() const
 {
-    return integrator() == Integrator::Path ? std::optional(m_light->tracer.sampleCount()) : std::nullopt;
+    return integrator() == Integrator::Path ? std::optional(m_renderer.pathCount()) : std::nullopt;
 }
 
-std::optional<std::uint32_t> Renderer::keptFrames() const
+std::optional<std::uint32_t> Renderer::keptFrames()
 {
-    return keepsLight(integrator()) ? std::optional(m_light->kept.cache().frameCount()) : std::nullopt;
-}
-
-std::uint64_t Renderer::rayListElements(const ViewState& view) const
-{
-    return integrator() == Integrator::Path ? m_light->tracer.listElements(pathOptionsOf(view)) : 0;
+    return keepsLight(integrator()) ? std::optional(m_renderer.cache().frameCount()) : std::nullopt;
 }
 
 void Renderer::record(vk::FrameGraph& graph, const DeviceTree& tree, const Picture& picture)
 {
-    const TraceBuffers& buffers = m_tracer.buffers();
+    const TraceBuffers& buffers = m_renderer.buffers();
     const TraceCamera camera = traceCamera(picture.camera, tree.grid, buffers.height);
-    const TraceOptions options = picture.view.traceOptions();
-    if (m_light == nullptr)
+    const TraceOptions& options = m_options.trace;
+    const FrameSubject subject = {tree, camera, &m_sky};
+    const double strength = options.shadows ? options.sun : 0.0;
+    m_sky.setSun({.direction = options.to_sun, .irradiance = strength * kSunColor});
+    if (picture.edited && keepsLight(integrator()))
     {
-        m_tracer.trace(graph, tree, camera, options);
+        m_renderer.cache().noteChange();
     }
-    else
+    m_renderer.render(graph, subject, m_options, picture.ray_lists);
+    if (picture.inspected && integrator() != Integrator::Primary)
     {
-        traceLight(graph, tree, camera, picture);
-    }
-    if (picture.inspected && m_light != nullptr)
-    {
-        m_tracer.tracePrimary(graph, tree, camera, options); // for its hits
+        m_renderer.traceHits(graph, subject, m_options);
     }
     if (picture.inspected)
     {
@@ -163,7 +72,7 @@ void Renderer::record(vk::FrameGraph& graph, const DeviceTree& tree, const Pictu
                                   tracedPixel(picture.inspected->y, picture.window.height, buffers.height)};
         inspectPixel(graph, tree, camera, options, buffers, pixel, *picture.report);
     }
-    m_compose->fill(graph, m_light == nullptr ? buffers.image : m_light->image, {buffers.width, buffers.height});
+    m_compose->fill(graph, buffers.image, {buffers.width, buffers.height});
     if (picture.screenshot != nullptr && !picture.screenshot_has_panels)
     {
         m_compose->copyTo(graph, *picture.screenshot);

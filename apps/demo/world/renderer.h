@@ -1,13 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "core/denoise/denoiser.h"
-#include "core/path/path_tracer.h"
+#include "core/frame/frame_renderer.h"
 #include "core/present/present.h"
-#include "core/radiance/radiance_tracer.h"
-#include "core/trace/tree_tracer.h"
 #include "demo/world/compose.h"
-#include "demo/world/view_state.h"
 #include "vk/deletion_queue.h"
 #include "vk/headless.h"
 #include "vk/swapchain.h"
@@ -24,7 +20,7 @@ namespace zvo::demo
 struct Picture
 {
     ViewCamera camera;
-    ViewState view;
+    FrameOptions options;
     PictureSize window;                            // in pixels
     PictureSize internal;                          // size of the traced picture
     std::function<void(VkCommandBuffer)> panels;   // draws over the picture; may be empty
@@ -44,7 +40,7 @@ class Renderer
 {
 public:
     Renderer(vk::HeadlessDevice& device, const ComposePass& pass)
-        : m_device(device), m_pass(pass), m_tracer(device.device(), &m_deletion_queue)
+        : m_device(device), m_pass(pass), m_renderer(device.device(), &m_deletion_queue), m_sky(device.device())
     {
     }
 
@@ -69,47 +65,24 @@ public:
     [[nodiscard]] std::optional<std::uint32_t> sampleCount() const;
 
     /// Frames since light is kept on voxels, where it is.
-    [[nodiscard]] std::optional<std::uint32_t> keptFrames() const;
+    [[nodiscard]] std::optional<std::uint32_t> keptFrames();
 
-    /// Elements of the lists of a frame's rays; 0 where it is not path traced.
-    [[nodiscard]] std::uint64_t rayListElements(const ViewState& view) const;
+    /// Elements of the lists of the rays of the frame that was begun; 0 where it is not path traced.
+    [[nodiscard]] std::uint64_t rayListElements() const { return m_renderer.rayListElements(m_options); }
 
     /// Primary rays of a frame.
-    [[nodiscard]] std::uint64_t rayCount() const { return primaryRayCount(m_tracer.buffers()); }
+    [[nodiscard]] std::uint64_t rayCount() const { return primaryRayCount(m_renderer.buffers()); }
 
     /// Of the last frame's picture.
-    [[nodiscard]] Integrator integrator() const
-    {
-        return m_light == nullptr ? Integrator::Primary : m_light->integrator;
-    }
+    [[nodiscard]] Integrator integrator() const { return m_options.shownIntegrator(); }
 
 private:
     vk::HeadlessDevice& m_device;
     const ComposePass& m_pass;
     vk::DeletionQueue m_deletion_queue;
-    /// What pictures need whose light comes from sky, sun and voxels.
-    struct Light
-    {
-        Light(vk::HeadlessDevice& device, vk::DeletionQueue* deletion_queue, Integrator shown)
-            : integrator(shown), tracer(device.device(), deletion_queue), denoiser(device.device(), deletion_queue),
-              kept(device.device(), deletion_queue), developer(device.device()), sky(device.device())
-        {
-        }
-
-        Integrator integrator;
-        PathTracer tracer; // Integrator::Path only, like the next
-        Denoiser denoiser;
-        RadianceTracer kept; // Integrator::Cached only
-        Developer developer;
-        DeviceEnvironment sky;
-        vk::BufferOf<gpu::uint> image; // [width * height] of the internal size
-    };
-
-    void prepareLight(const DeviceTree& tree, const Picture& picture);
-    void traceLight(vk::FrameGraph& graph, const DeviceTree& tree, const TraceCamera& camera, const Picture& picture);
-
-    TreeTracer m_tracer;
-    std::unique_ptr<Light> m_light; // null: primary rays
+    FrameRenderer m_renderer;
+    FrameOptions m_options; // of the last frame
+    DeviceEnvironment m_sky;
     std::unique_ptr<ComposeImage> m_compose;
 };
 

@@ -27,6 +27,8 @@ struct Exposure
     /// The mean of the pixels' brightness, in stops, becomes middle grey before the factor is applied.
     bool automatic = true;
     float factor = 1.0F;
+
+    bool operator==(const Exposure&) const = default;
 };
 
 /// Makes pictures that can be shown of sums of radiance.

@@ -50,6 +50,8 @@ struct TraceOptions
     /// Of an invocation. Fewer only for tests: of later rounds, and of beams that end sooner.
     std::uint32_t iterations_max = gpu::kTraceIterationsMax;
 
+    bool operator==(const TraceOptions&) const = default;
+
     [[nodiscard]] bool hasDetail() const { return detail_pixels > 0.0F || detail_level != UINT32_MAX; }
 };
 

@@ -93,7 +93,7 @@ TEST(RadiancePictures, AreThoseOfPathTracing)
 {
     Hall hall;
     const PathPicture truth = pictureOf(hall.tree, hall.dark, hall.view, 40, 512, {.bounces = 10});
-    RadianceTracer tracer(device().device());
+    FrameRenderer tracer(device().device());
     const PathPicture picture = settledPicture(tracer, hall.tree, hall.dark, hall.view, 40, 256, 64);
     EXPECT_NEAR(picture.luminance, truth.luminance, 0.01 * truth.luminance);
     EXPECT_LT(relativeError(picture, truth), 0.02);
@@ -110,7 +110,7 @@ TEST(RadiancePictures, AreSmoothAfterFewFrames)
     DeviceEnvironment sky = constantSky(glm::vec3(1.0F));
     const ViewCamera view = ViewCamera::lookAt({16.0, 9.0, 50.0}, {16.0, 1.0, 14.0}, 0.6);
     const PathPicture truth = pictureOf(tree, sky, view, 40, 512, {.bounces = 10});
-    RadianceTracer tracer(device().device());
+    FrameRenderer tracer(device().device());
     const PathPicture picture = settledPicture(tracer, tree, sky, view, 40, 5, 1, {.faces = 600});
     EXPECT_LT(relativeError(picture, truth), 0.04);
 }
@@ -120,7 +120,7 @@ TEST(RadiancePictures, AreNotDarkAtFirst)
 {
     Hall hall;
     const PathPicture truth = pictureOf(hall.tree, hall.dark, hall.view, 40, 512, {.bounces = 10});
-    RadianceTracer tracer(device().device());
+    FrameRenderer tracer(device().device());
     const PathPicture picture = settledPicture(tracer, hall.tree, hall.dark, hall.view, 40, 4, 4, {.faces = 400});
     EXPECT_NEAR(picture.luminance, truth.luminance, 0.2 * truth.luminance);
 }
@@ -129,12 +129,12 @@ TEST(RadiancePictures, AreNotDarkAtFirst)
 TEST(RadiancePictures, ShowNewFacesLit)
 {
     Hall hall;
-    RadianceTracer tracer(device().device());
+    FrameRenderer tracer(device().device());
     tracer.resize(40, 40);
     runFrames(tracer, hall.tree, hall.dark, hall.view, 64, {.faces = 400});
     const ViewCamera near_wall = ViewCamera::lookAt({20.0, 10.0, 20.0}, {31.0, 8.0, 12.0}, 0.9);
     const PathPicture truth = pictureOf(hall.tree, hall.dark, near_wall, 40, 256, {.bounces = 10});
-    tracer.beginPicture();
+    tracer.beginPicture(test::cachedOptions());
     runFrames(tracer, hall.tree, hall.dark, near_wall, 1, {.faces = 1});
     const PathPicture picture = pictureOf(tracer);
     EXPECT_LT(relativeError(picture, truth), 0.25);
@@ -148,7 +148,7 @@ TEST(RadiancePictures, ByConesAreNearThoseOfPathTracing)
     std::array<double, 2> errors{};
     for (const KeptView kind : {KeptView::Faces, KeptView::Cones})
     {
-        RadianceTracer tracer(device().device());
+        FrameRenderer tracer(device().device());
         const PathPicture picture = settledPicture(tracer, hall.tree, hall.dark, hall.view, 40, 128, 64, {}, kind);
         errors[static_cast<std::size_t>(kind)] = relativeError(picture, truth);
         EXPECT_NEAR(picture.luminance, truth.luminance, 0.06 * truth.luminance);
@@ -177,7 +177,7 @@ TEST(RadiancePictures, ByConesHaveTheLightOfAllBounces)
         const DeviceTree tree = test::litTree(device(), voxels, 5);
         DeviceEnvironment dark = constantSky(glm::vec3(0.0F));
         const ViewCamera inside = ViewCamera::lookAt({16.2, 16.1, 16.3}, {1.0, 2.0, 3.0}, 1.0);
-        RadianceTracer tracer(device().device());
+        FrameRenderer tracer(device().device());
         const PathPicture picture = settledPicture(tracer, tree, dark, inside, 40, 128, 16, {}, KeptView::Cones);
         EXPECT_NEAR(picture.luminance, expected, (thickness == 1 ? 0.05 : 0.01) * expected);
     }
@@ -190,7 +190,7 @@ TEST(RadianceBytes, AreTheSameInEveryRun)
     std::vector<std::vector<std::map<FaceName, FaceLight>>> runs; // by level
     for (std::uint32_t run = 0; run < 2; ++run)
     {
-        RadianceTracer tracer(device().device());
+        FrameRenderer tracer(device().device());
         tracer.resize(48, 40);
         // Tables of other sizes have their faces elsewhere.
         tracer.cache().reserveFaces(run == 0 ? 20000 : 45678);
@@ -219,7 +219,7 @@ FaceName around(const FaceName& name)
 TEST(RadianceBricks, KeepMeansOfWhatIsInThem)
 {
     Hall hall;
-    RadianceTracer tracer(device().device());
+    FrameRenderer tracer(device().device());
     tracer.resize(64, 64);
     runFrames(tracer, hall.tree, hall.dark, hall.view, 1, {.faces = 300});
     for (std::uint32_t level = 0; level < gpu::kBrickLevels; ++level)
@@ -267,7 +267,7 @@ TEST(RadianceBricks, ShareNoLightThroughWalls)
     test::addBox(voxels, {2, 7, 7}, {4, 8, 9}, lamp());
     const DeviceTree tree = test::litTree(device(), voxels, 4);
     DeviceEnvironment dark = constantSky(glm::vec3(0.0F));
-    RadianceTracer tracer(device().device());
+    FrameRenderer tracer(device().device());
     tracer.resize(64, 64);
     runFrames(tracer, tree, dark, ViewCamera::lookAt({9.0, 40.0, 9.0}, {8.0, 0.0, 8.0}, 0.5), 64, {});
     std::uint32_t dark_faces = 0;
@@ -297,7 +297,7 @@ TEST(RadianceBudget, BoundsTheFacesOfAFrame)
     Hall hall;
     for (const std::uint32_t budget : {1U, 100U, 700U, 100000U})
     {
-        RadianceTracer tracer(device().device());
+        FrameRenderer tracer(device().device());
         tracer.resize(32, 32);
         std::uint64_t samples_before = 0;
         for (std::uint32_t frame = 0; frame < 8; ++frame)
@@ -338,7 +338,7 @@ TEST(RadianceBudget, GivesEachPixelATurn)
         ViewCamera::lookAt({middle, middle, 1.0 + distance}, {middle, middle, 0.0}, 2.0 * std::atan(middle / distance));
     for (const std::uint32_t pixels_of_four : {1U, 2U, 4U})
     {
-        RadianceTracer tracer(device().device());
+        FrameRenderer tracer(device().device());
         tracer.resize(kEdge, kEdge);
         for (std::uint32_t pixels = pixels_of_four; pixels <= 4; pixels += pixels_of_four)
         {
@@ -351,7 +351,7 @@ TEST(RadianceBudget, GivesEachPixelATurn)
 TEST(RadianceBudget, GivesEachFaceATurn)
 {
     Hall hall;
-    RadianceTracer tracer(device().device());
+    FrameRenderer tracer(device().device());
     tracer.resize(64, 64);
     runFrames(tracer, hall.tree, hall.dark, hall.view, 160, {.faces = 400});
     std::uint64_t without = 0;
@@ -369,7 +369,7 @@ TEST(RadianceBudget, GivesEachFaceATurn)
 TEST(RadianceTable, KeepsItsLightInPicturesOfOtherSizes)
 {
     Hall hall;
-    RadianceTracer tracer(device().device());
+    FrameRenderer tracer(device().device());
     tracer.resize(64, 64);
     runFrames(tracer, hall.tree, hall.dark, hall.view, 40, {});
     const auto before = facesOf(tracer.cache());
@@ -402,7 +402,7 @@ TEST(RadianceTable, KeepsItsLightInPicturesOfOtherSizes)
 TEST(RadianceTable, CountsFacesWithoutAPlace)
 {
     Hall hall;
-    RadianceTracer tracer(device().device());
+    FrameRenderer tracer(device().device());
     tracer.resize(64, 64);
     tracer.cache().reserveFaces(100);
     runFrames(tracer, hall.tree, hall.dark, hall.view, 8, {});

@@ -37,7 +37,7 @@ TEST(RadianceFurnace, AWhiteCubeCannotBeSeen)
     test::addBox(voxels, {2, 2, 2}, {6, 6, 6}, whiteVoxel());
     const DeviceTree tree = test::litTree(device(), voxels, 3);
     DeviceEnvironment sky = constantSky({0.5F, 1.0F, 2.0F});
-    RadianceTracer tracer(device().device());
+    FrameRenderer tracer(device().device());
     const PathPicture picture = settledPicture(tracer, tree, sky, outside(), 64, 1024, 8);
     const auto faces = facesOf(tracer.cache());
     ASSERT_EQ(faces.size(), 3U * 16U);
@@ -63,12 +63,15 @@ TEST(RadianceFurnace, AWhiteCubeCanHardlyBeSeenThroughCones)
     test::addBox(voxels, {2, 2, 2}, {6, 6, 6}, whiteVoxel());
     const DeviceTree tree = test::litTree(device(), voxels, 3);
     DeviceEnvironment sky = constantSky({0.5F, 1.0F, 2.0F});
-    RadianceTracer tracer(device().device());
+    FrameRenderer tracer(device().device());
     tracer.resize(64, 64);
     runFrames(tracer, tree, sky, outside(), 64, {});
-    tracer.beginPicture();
+    tracer.beginPicture(test::cachedOptions());
     const TraceCamera camera = traceCamera(outside(), tree.grid, 64);
-    device().run([&](vk::FrameGraph& graph) { tracer.addFrame(graph, tree, sky, camera, {}, KeptView::Cones); });
+    device().run(
+        [&](vk::FrameGraph& graph) {
+            tracer.addSample(graph, {tree, camera, &sky}, test::cachedOptions({}, KeptView::Cones));
+        });
     const PathPicture picture = pictureOf(tracer);
     EXPECT_NEAR(picture.luminance, test::luminanceOf({0.5, 1.0, 2.0}), 0.02);
 }
@@ -83,7 +86,7 @@ TEST(RadianceFurnace, AWhiteBowlCannotBeSeen)
     test::addBox(voxels, {3, 1, 3}, {5, 3, 5}, whiteVoxel());
     const DeviceTree tree = test::litTree(device(), voxels, 3);
     DeviceEnvironment sky = constantSky(glm::vec3(1.0F));
-    RadianceTracer tracer(device().device());
+    FrameRenderer tracer(device().device());
     const PathPicture picture = settledPicture(tracer, tree, sky, outside(), 64, 512, 8);
     EXPECT_NEAR(picture.luminance, 1.0, 0.005);
     for (const glm::dvec3& pixel : picture.pixels)
@@ -99,7 +102,7 @@ TEST(RadianceFurnace, AGlowingRoomHasTheLightOfAllBounces)
     const DeviceTree tree = test::litTree(device(), test::roomOf(wall, 8), 3);
     DeviceEnvironment dark = constantSky(glm::vec3(0.0F));
     const ViewCamera inside = ViewCamera::lookAt({4.2, 4.1, 4.3}, {1.0, 2.0, 3.0}, 1.0);
-    RadianceTracer tracer(device().device());
+    FrameRenderer tracer(device().device());
     const PathPicture picture = settledPicture(tracer, tree, dark, inside, 64, 256, 8);
     const double expected = 0.5 / (1.0 - test::albedoOf(wall).r);
     EXPECT_NEAR(picture.luminance, expected, 0.005 * expected);
@@ -113,7 +116,7 @@ TEST(RadianceFurnace, TheFirstFrameHasTwoBounces)
     const DeviceTree tree = test::litTree(device(), test::roomOf(wall, 32), 5);
     DeviceEnvironment dark = constantSky(glm::vec3(0.0F));
     const ViewCamera inside = ViewCamera::lookAt({16.2, 16.1, 16.3}, {1.0, 2.0, 3.0}, 1.5);
-    RadianceTracer tracer(device().device());
+    FrameRenderer tracer(device().device());
     tracer.resize(128, 128);
     runFrames(tracer, tree, dark, inside, 1, {});
     double mean = 0.0;
@@ -139,7 +142,7 @@ TEST(RadianceFurnace, FacesWithoutLightReflectThatBesideThem)
     const LitVoxel wall = {{}, glm::uvec3(188), glm::vec3(0.5F)};
     const DeviceTree tree = test::litTree(device(), test::roomOf(wall, 32), 5);
     DeviceEnvironment dark = constantSky(glm::vec3(0.0F));
-    RadianceTracer tracer(device().device());
+    FrameRenderer tracer(device().device());
     tracer.resize(36, 36);
     runFrames(tracer, tree, dark, ViewCamera::lookAt({16.2, 16.1, 16.3}, {1.0, 2.0, 3.0}, 2.2), 1, {});
     const auto before = facesOf(tracer.cache());
@@ -180,7 +183,7 @@ TEST(RadianceWalls, NoLightComesThrough)
     const DeviceTree tree = test::litTree(device(), voxels, 4);
     DeviceEnvironment dark = constantSky(glm::vec3(0.0F));
     const ViewCamera beside = ViewCamera::lookAt({9.5, 14.0, 25.0}, {9.0, 4.0, 4.0}, 0.8);
-    RadianceTracer tracer(device().device());
+    FrameRenderer tracer(device().device());
     const PathPicture picture = settledPicture(tracer, tree, dark, beside, 64, 64, 4);
     EXPECT_EQ(picture.mean, glm::dvec3(0.0));
     const auto faces = facesOf(tracer.cache());

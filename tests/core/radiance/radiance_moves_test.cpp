@@ -2,7 +2,7 @@
 // Light that is kept on voxels, while something moves.
 #include "core/base/grid.h"
 #include "core/dynamic/dynamic_octree.h"
-#include "core/radiance/radiance_tracer.h"
+#include "core/frame/frame_renderer.h"
 #include "support/dynamic_updates.h"
 #include "support/engine_device.h"
 #include "support/kept_light.h"
@@ -79,7 +79,7 @@ public:
         return sum / count;
     }
 
-    RadianceTracer& tracer() { return m_tracer; }
+    FrameRenderer& tracer() { return m_tracer; }
 
 private:
     static constexpr float kBox = 8.0F;
@@ -100,7 +100,7 @@ private:
 
     DynamicOctree m_tree;
     DeviceEnvironment m_sky = test::constantSky(glm::vec3(0.0F));
-    RadianceTracer m_tracer;
+    FrameRenderer m_tracer;
     ViewCamera m_view = ViewCamera::lookAt({16.0, 15.0, 40.0}, {16.0, 0.0, 14.0}, 1.0);
     DynamicObjectId m_mover = 0;
 };
@@ -233,7 +233,7 @@ private:
 
     DynamicOctree m_tree;
     DeviceEnvironment m_sky = test::constantSky(glm::vec3(1.0F));
-    RadianceTracer m_tracer{device().device()};
+    FrameRenderer m_tracer{device().device()};
     ViewCamera m_view = ViewCamera::lookAt({8.3, 13.0, 12.4}, {8.0, 0.0, 7.0}, 1.2);
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "common/integrator.h"
+#include "common/integrator_name.h"
 
 #include "common/option_groups.h"
 

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "core/path/path_tracer.h"
+#include "core/radiance/radiance_passes.h"
+#include "core/trace/trace.h"
+
+#include <cstdint>
+#include <optional>
+
+namespace zvo
+{
+
+/// How the light of a picture is computed.
+enum class Integrator : std::uint8_t
+{
+    Primary, ///< primary rays, with rays to the sun and over the hemisphere (core/trace/trace.h)
+    Path,    ///< path tracing (core/path/path_tracer.h)
+    Cached,  ///< light that is kept on voxels (core/radiance/radiance_cache.h)
+    Cones,   ///< the same light, seen through cones (KeptView::Cones)
+};
+
+/// Whether light is kept on voxels.
+constexpr bool keepsLight(Integrator integrator)
+{
+    return integrator == Integrator::Cached || integrator == Integrator::Cones;
+}
+
+/// Options of a picture. Those of other integrators than its own have no effect.
+struct FrameOptions
+{
+    Integrator integrator = Integrator::Primary;
+    TraceOptions trace = {};                          // Integrator::Primary; the view counts for all
+    PathOptions path = {};                            // Integrator::Path
+    std::optional<PathForm> path_form = std::nullopt; // not given: pathFormOn() the device
+    bool denoise = false;                             // Integrator::Path: filters the noise of few samples (Denoiser)
+    std::uint32_t history_max = 16;                   // as in Denoiser::denoise()
+    RadianceOptions radiance = {};                    // Integrator::Cached and Cones
+    Exposure exposure = {};                           // Integrator::Primary: the factor alone
+
+    bool operator==(const FrameOptions&) const = default;
+
+    /// The integrator of the picture: views other than colour have no light.
+    [[nodiscard]] Integrator shownIntegrator() const
+    {
+        return trace.view == View::Color ? integrator : Integrator::Primary;
+    }
+};
+
+} // namespace zvo
