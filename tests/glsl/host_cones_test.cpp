@@ -8,6 +8,7 @@
 #include "oracle/morton.h"
 #include "support/dags.h"
 #include "support/dynamic_updates.h"
+#include "support/kept_light.h"
 #include "support/lit_voxels.h"
 #include "support/octree_contents.h"
 #include "support/scenes.h"
@@ -84,7 +85,7 @@ public:
         {
             deviceOfHosts().run(
                 [&](vk::FrameGraph& graph) {
-                    m_tracer.addSample(graph, {tree, camera, &m_sky}, cachedOptions());
+                    m_tracer.addSample(graph, {tree, camera, &m_sky}, test::cachedOptions());
                 });
         }
     }

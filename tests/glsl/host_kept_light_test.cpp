@@ -4,6 +4,7 @@
 #include "core/radiance/kept_light_table.h"
 #include "core/tree/tree_table.h"
 #include "glsl/host_device.h"
+#include "support/kept_light.h"
 #include "support/lit_voxels.h"
 
 #include <gtest/gtest.h>
@@ -71,7 +72,7 @@ struct Lit
         {
             deviceOfHosts().run(
                 [&](vk::FrameGraph& graph) {
-                    tracer.addSample(graph, {tree, camera, &environment}, cachedOptions());
+                    tracer.addSample(graph, {tree, camera, &environment}, test::cachedOptions());
                 });
         }
     }
@@ -253,14 +254,14 @@ TEST(HostKeptLight, OfHitsIsThatOfZvosPicture)
     test::addBox(voxels, {4, 1, 4}, {8, 6, 7}, kWhite);
     const ViewCamera view = ViewCamera::lookAt({13.0, 9.0, 13.5}, {5.0, 5.0, 5.0}, 1.2);
     Lit lit(voxels, 4, skyOf(glm::vec3(0.0F)), view, 300);
-    lit.tracer.beginPicture(cachedOptions());
+    lit.tracer.beginPicture(test::cachedOptions());
     constexpr std::uint32_t kEdge = 64;
     const TraceCamera camera = traceCamera(view, lit.tree.grid, kEdge);
     deviceOfHosts().run(
         [&](vk::FrameGraph& graph) {
-            lit.tracer.addSample(graph, {lit.tree, camera, &lit.environment}, cachedOptions());
+            lit.tracer.addSample(graph, {lit.tree, camera, &lit.environment}, test::cachedOptions());
         });
-    const SampledPicture sampled = lit.tracer.samples(cachedOptions());
+    const SampledPicture sampled = lit.tracer.samples(test::cachedOptions());
     const HdrImage picture = pictureOf(deviceOfHosts().download(sampled.sums), kEdge, kEdge, 1);
     std::vector<Place> places;
     for (std::uint32_t i = 0; i < kEdge * kEdge; ++i)
