@@ -74,17 +74,19 @@ struct FeatureStorage
 /// Adds the features that zvo requires, and the optional ones asked for, to what a host is about to give to
 /// vkCreateDevice.
 ///
+/// The structs of the host must be a chain that Vulkan allows, which the validation layers check in vkCreateDevice: no
+/// struct twice, no VkPhysicalDeviceVulkan12Features or its like beside a struct of one of its features, no
+/// pEnabledFeatures beside VkPhysicalDeviceFeatures2; and VK_EXT_buffer_device_address must not be enabled. Then it is
+/// one afterwards, too.
+///
 /// Where the pNext chain has a struct with a feature's member, the member is set, so the chain must be writable.
 /// pEnabledFeatures is replaced by a changed copy in storage. For the other features, structs of storage are put in
 /// front of the chain: never VkPhysicalDeviceVulkan12Features and its like, which would also decide about features that
-/// the host enables through extensions. So zvo never causes a combination that Vulkan forbids. Structs that zvo does
-/// not know are left alone, extensions are never added, and a second call changes nothing.
+/// the host enables through extensions. Structs that zvo does not know are left alone, extensions are never added, and
+/// a second call changes nothing.
 ///
-/// Returns what keeps the host's own structs from becoming a legal chain: combinations that Vulkan forbids, such as
-/// VkPhysicalDeviceVulkan12Features beside a struct of one of its features, and VK_EXT_buffer_device_address. Then
-/// nothing is changed. An empty result means success; declare info.pNext and info.pEnabledFeatures to zvo. Whether the
-/// device supports the features is not checked here: query() tells.
-[[nodiscard]] ZVO_API std::vector<std::string> patchFeatures(VkDeviceCreateInfo& info, FeatureStorage& storage,
-                                                             const OptionalFeatures& optional = {});
+/// Declare info.pNext and info.pEnabledFeatures to zvo. Whether the device supports the features is not checked here:
+/// query() tells.
+ZVO_API void patchFeatures(VkDeviceCreateInfo& info, FeatureStorage& storage, const OptionalFeatures& optional = {});
 
 } // namespace zvo

@@ -276,8 +276,7 @@ typedef struct ZvoOptionalFeatures
 ZVO_C_API ZvoResult zvoFeatureStorageCreate(ZvoFeatureStorage** storage);
 ZVO_C_API void zvoFeatureStorageDestroy(ZvoFeatureStorage* storage);
 
-/// zvo::patchFeatures(). Where the host's structs make no legal chain, ZVO_ERROR_USAGE, nothing is changed, and the
-/// error says why. optional: null: none.
+/// zvo::patchFeatures(). optional: null: none.
 ZVO_C_API ZvoResult zvoPatchFeatures(VkDeviceCreateInfo* info, ZvoFeatureStorage* storage,
                                      const ZvoOptionalFeatures* optional);
 

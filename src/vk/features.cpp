@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Finds features in a host's chain of structs, and chains that Vulkan forbids (valid usage of VkDeviceCreateInfo).
+// Finds and sets features in a host's chain of structs.
 #include "vk/features.h"
 
-#include <algorithm>
 #include <cassert>
 
 namespace zvo::vk
@@ -12,7 +11,6 @@ namespace
 {
 
 constexpr VkStructureType kCore = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2;
-constexpr VkStructureType kVulkan11 = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_1_FEATURES;
 constexpr VkStructureType kVulkan12 = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES;
 constexpr VkStructureType kVulkan13 = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES;
 constexpr std::size_t kCoreOffset = offsetof(VkPhysicalDeviceFeatures2, features);
@@ -44,68 +42,6 @@ constexpr Feature kFeatures[] = {
 #undef ZVO_FEATURE
 #undef ZVO_CORE_FEATURE
 
-// A struct of features that a later version of Vulkan has in a larger struct. A chain may not have both.
-struct SingleStruct
-{
-    VkStructureType type;
-    VkStructureType whole;
-    const char* name;
-};
-
-#define ZVO_SINGLE(version, struct_name, struct_type)                                                                  \
-    {                                                                                                                  \
-        VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_##struct_type##_FEATURES, kVulkan##version,                                  \
-            "VkPhysicalDevice" #struct_name "Features"                                                                 \
-    }
-constexpr SingleStruct kSingleStructs[] = {
-    ZVO_SINGLE(11, 16BitStorage, 16BIT_STORAGE),
-    ZVO_SINGLE(11, Multiview, MULTIVIEW),
-    ZVO_SINGLE(11, ProtectedMemory, PROTECTED_MEMORY),
-    ZVO_SINGLE(11, SamplerYcbcrConversion, SAMPLER_YCBCR_CONVERSION),
-    ZVO_SINGLE(11, ShaderDrawParameters, SHADER_DRAW_PARAMETERS),
-    ZVO_SINGLE(11, VariablePointers, VARIABLE_POINTERS),
-    ZVO_SINGLE(12, 8BitStorage, 8BIT_STORAGE),
-    ZVO_SINGLE(12, BufferDeviceAddress, BUFFER_DEVICE_ADDRESS),
-    ZVO_SINGLE(12, DescriptorIndexing, DESCRIPTOR_INDEXING),
-    ZVO_SINGLE(12, HostQueryReset, HOST_QUERY_RESET),
-    ZVO_SINGLE(12, ImagelessFramebuffer, IMAGELESS_FRAMEBUFFER),
-    ZVO_SINGLE(12, ScalarBlockLayout, SCALAR_BLOCK_LAYOUT),
-    ZVO_SINGLE(12, SeparateDepthStencilLayouts, SEPARATE_DEPTH_STENCIL_LAYOUTS),
-    ZVO_SINGLE(12, ShaderAtomicInt64, SHADER_ATOMIC_INT64),
-    ZVO_SINGLE(12, ShaderFloat16Int8, SHADER_FLOAT16_INT8),
-    ZVO_SINGLE(12, ShaderSubgroupExtendedTypes, SHADER_SUBGROUP_EXTENDED_TYPES),
-    ZVO_SINGLE(12, TimelineSemaphore, TIMELINE_SEMAPHORE),
-    ZVO_SINGLE(12, UniformBufferStandardLayout, UNIFORM_BUFFER_STANDARD_LAYOUT),
-    ZVO_SINGLE(12, VulkanMemoryModel, VULKAN_MEMORY_MODEL),
-    ZVO_SINGLE(13, DynamicRendering, DYNAMIC_RENDERING),
-    ZVO_SINGLE(13, ImageRobustness, IMAGE_ROBUSTNESS),
-    ZVO_SINGLE(13, InlineUniformBlock, INLINE_UNIFORM_BLOCK),
-    ZVO_SINGLE(13, Maintenance4, MAINTENANCE_4),
-    ZVO_SINGLE(13, PipelineCreationCacheControl, PIPELINE_CREATION_CACHE_CONTROL),
-    ZVO_SINGLE(13, PrivateData, PRIVATE_DATA),
-    ZVO_SINGLE(13, ShaderDemoteToHelperInvocation, SHADER_DEMOTE_TO_HELPER_INVOCATION),
-    ZVO_SINGLE(13, ShaderIntegerDotProduct, SHADER_INTEGER_DOT_PRODUCT),
-    ZVO_SINGLE(13, ShaderTerminateInvocation, SHADER_TERMINATE_INVOCATION),
-    ZVO_SINGLE(13, SubgroupSizeControl, SUBGROUP_SIZE_CONTROL),
-    ZVO_SINGLE(13, Synchronization2, SYNCHRONIZATION_2),
-    ZVO_SINGLE(13, TextureCompressionASTCHDR, TEXTURE_COMPRESSION_ASTC_HDR),
-    ZVO_SINGLE(13, ZeroInitializeWorkgroupMemory, ZERO_INITIALIZE_WORKGROUP_MEMORY),
-};
-#undef ZVO_SINGLE
-
-struct WholeStruct
-{
-    VkStructureType type;
-    const char* name;
-};
-
-constexpr WholeStruct kWholeStructs[] = {
-    {kCore, "VkPhysicalDeviceFeatures2"},
-    {kVulkan11, "VkPhysicalDeviceVulkan11Features"},
-    {kVulkan12, "VkPhysicalDeviceVulkan12Features"},
-    {kVulkan13, "VkPhysicalDeviceVulkan13Features"},
-};
-
 // The struct of that type in a chain, or null.
 const VkBaseInStructure* find(const void* chain, VkStructureType type)
 {
@@ -115,16 +51,6 @@ const VkBaseInStructure* find(const void* chain, VkStructureType type)
         link = link->pNext;
     }
     return link;
-}
-
-std::size_t countOf(const void* chain, VkStructureType type)
-{
-    std::size_t count = 0;
-    for (const VkBaseInStructure* link = find(chain, type); link != nullptr; link = find(link->pNext, type))
-    {
-        ++count;
-    }
-    return count;
 }
 
 const VkBool32* memberAt(const void* base, std::size_t offset)
@@ -146,50 +72,6 @@ const VkBool32* memberIn(const void* chain, const Feature& feature)
 const VkBool32* memberIn(const VkPhysicalDeviceFeatures& core, const Feature& feature)
 {
     return memberAt(&core, feature.whole_offset - kCoreOffset);
-}
-
-const char* nameOf(VkStructureType whole)
-{
-    return std::ranges::find(kWholeStructs, whole, &WholeStruct::type)->name;
-}
-
-std::vector<std::string> forbiddenMixes(const VkDeviceCreateInfo& info)
-{
-    std::vector<std::string> reasons;
-    if (info.pEnabledFeatures != nullptr && find(info.pNext, kCore) != nullptr)
-    {
-        reasons.emplace_back("pEnabledFeatures is set and the chain has VkPhysicalDeviceFeatures2: move what is in "
-                             "pEnabledFeatures to VkPhysicalDeviceFeatures2::features");
-    }
-    for (const WholeStruct& whole : kWholeStructs)
-    {
-        if (countOf(info.pNext, whole.type) > 1)
-        {
-            reasons.push_back("the chain has " + std::string(whole.name) + " more than once: keep one");
-        }
-    }
-    for (const SingleStruct& single : kSingleStructs)
-    {
-        const std::size_t count = countOf(info.pNext, single.type);
-        if (count > 1)
-        {
-            reasons.push_back("the chain has " + std::string(single.name) + " more than once: keep one");
-        }
-        if (count > 0 && find(info.pNext, single.whole) != nullptr)
-        {
-            reasons.push_back("the chain has " + std::string(single.name) + " beside " + nameOf(single.whole) +
-                              ", which has its features: set them there");
-        }
-    }
-    for (std::uint32_t i = 0; i < info.enabledExtensionCount; ++i)
-    {
-        if (std::string_view(info.ppEnabledExtensionNames[i]) == VK_EXT_BUFFER_DEVICE_ADDRESS_EXTENSION_NAME)
-        {
-            reasons.emplace_back("VK_EXT_buffer_device_address is enabled, which excludes Vulkan's own "
-                                 "bufferDeviceAddress: use that in its place");
-        }
-    }
-    return reasons;
 }
 
 bool wants(const OptionalFeatures& optional, const Feature& feature)
@@ -302,21 +184,15 @@ std::vector<std::string> enabledFeatures(const void* chain, const VkPhysicalDevi
 namespace zvo
 {
 
-std::vector<std::string> patchFeatures(VkDeviceCreateInfo& info, FeatureStorage& storage,
-                                       const OptionalFeatures& optional)
+void patchFeatures(VkDeviceCreateInfo& info, FeatureStorage& storage, const OptionalFeatures& optional)
 {
-    std::vector<std::string> reasons = vk::forbiddenMixes(info);
-    if (reasons.empty())
+    for (const vk::Feature& feature : vk::kFeatures)
     {
-        for (const vk::Feature& feature : vk::kFeatures)
+        if (vk::wants(optional, feature))
         {
-            if (vk::wants(optional, feature))
-            {
-                vk::enable(info, storage, feature);
-            }
+            vk::enable(info, storage, feature);
         }
     }
-    return reasons;
 }
 
 } // namespace zvo

@@ -5,7 +5,6 @@
 #include "vk/owner_functions.h"
 
 #include <algorithm>
-#include <cassert>
 #include <string_view>
 
 namespace zvo::vk
@@ -47,8 +46,7 @@ LogicalDevice::LogicalDevice(const Instance& instance, const DeviceReport& repor
                                        .subgroup_sizes =
                                            has(report, "subgroupSizeControl") && report.min_subgroup_size != 0,
                                        .int64_atomics = has(report, "shaderBufferInt64Atomics")};
-    const std::vector<std::string> reasons = patchFeatures(info, m_feature_storage, optional);
-    assert(reasons.empty());
+    patchFeatures(info, m_feature_storage, optional);
     m_features = info.pNext;
     const float priority = 1;
     VkDeviceQueueCreateInfo queue{};

@@ -375,16 +375,6 @@ TEST(CApi, FeaturesArePatchedOrWhatStandsInTheWayIsSaid)
     EXPECT_FALSE(hasStruct(VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_HOST_QUERY_RESET_FEATURES));
     EXPECT_EQ(zvoPatchFeatures(&info, storage, &optional), ZVO_OK);
     EXPECT_TRUE(hasStruct(VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_HOST_QUERY_RESET_FEATURES));
-
-    VkPhysicalDeviceVulkan12Features features12{};
-    features12.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES;
-    VkPhysicalDeviceScalarBlockLayoutFeatures scalar{};
-    scalar.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SCALAR_BLOCK_LAYOUT_FEATURES;
-    scalar.pNext = &features12;
-    info.pNext = &scalar;
-    EXPECT_EQ(zvoPatchFeatures(&info, storage, nullptr), ZVO_ERROR_USAGE);
-    EXPECT_NE(std::string(zvoLastError()).find("VkPhysicalDeviceVulkan12Features"), std::string::npos)
-        << zvoLastError();
     zvoFeatureStorageDestroy(storage);
 
     // A feature that was not enabled is refused.
