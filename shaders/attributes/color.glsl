@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Colours in 5, 6 and 5 bits: lib/attribute_formats.glsl unpacks them.
+#ifndef ZVO_SHADERS_ATTRIBUTES_COLOR_GLSL
+#define ZVO_SHADERS_ATTRIBUTES_COLOR_GLSL
+
 #include "shared/attribute_formats.h"
 
 // The channels of an attribute's colour.
@@ -18,3 +21,5 @@ uint packColor565(uvec3 channels)
 {
     return channels.r | (channels.g << kRedBits) | (channels.b << (kRedBits + kGreenBits));
 }
+
+#endif

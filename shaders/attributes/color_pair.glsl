@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Pairs of colours for the 16 voxels of a block.
+#ifndef ZVO_SHADERS_ATTRIBUTES_COLOR_PAIR_GLSL
+#define ZVO_SHADERS_ATTRIBUTES_COLOR_PAIR_GLSL
+
 #include "attributes/color.glsl"
 #include "lib/attribute_formats.glsl"
 
@@ -77,3 +80,5 @@ Pair leastSquares(Pair pair)
         return pair;
     return pairOf(endOf(ac * int(bb) - bc * int(ab), determinant), endOf(bc * int(aa) - ac * int(ab), determinant));
 }
+
+#endif

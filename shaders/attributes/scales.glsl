@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Pairs of scales for the coordinates of a block's 16 points, x and y at once. In integers; 1 is 4095.
+#ifndef ZVO_SHADERS_ATTRIBUTES_SCALES_GLSL
+#define ZVO_SHADERS_ATTRIBUTES_SCALES_GLSL
+
 #include "lib/attribute_formats.glsl"
 
 const uint kStep = 65u;                      // from one end to the next
@@ -113,3 +116,5 @@ Scales better(Scales a, Scales b)
     return Scales(mix(a.first, b.first, is_b), mix(a.second, b.second, is_b), (a.planes & ~of_b) | (b.planes & of_b),
                   min(a.error, b.error));
 }
+
+#endif

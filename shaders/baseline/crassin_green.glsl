@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: MIT
 // What the kernels of Crassin and Green have in common: parameters, and the way down to a fragment's node.
+#ifndef ZVO_SHADERS_BASELINE_CRASSIN_GREEN_GLSL
+#define ZVO_SHADERS_BASELINE_CRASSIN_GREEN_GLSL
+
 #include "baseline/crassin_green.h"
 #include "lib/dispatch.glsl"
 
@@ -24,3 +27,5 @@ uint nodeOf(VoxelFragment fragment, uint level)
     }
     return node;
 }
+
+#endif

@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: MIT
 // The look of a node: the mean of its occupied children's. Colours are averaged as sRGB codes, normals as vectors.
+#ifndef ZVO_SHADERS_BASELINE_MEAN_GLSL
+#define ZVO_SHADERS_BASELINE_MEAN_GLSL
+
 #include "lib/normal_code.glsl"
 
 struct MeanSums
@@ -30,3 +33,5 @@ PointerNode meanNode(MeanSums sums, uint child)
     uvec3 color = divideSmall(sums.color + count / 2u, count);
     return PointerNode(child, color.r | (color.g << 8) | (color.b << 16) | kOpaqueColor, encodeNormal(sums.normal));
 }
+
+#endif

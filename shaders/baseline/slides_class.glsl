@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: MIT
 // What the kernels that merge equal nodes share.
+#ifndef ZVO_SHADERS_BASELINE_SLIDES_CLASS_GLSL
+#define ZVO_SHADERS_BASELINE_SLIDES_CLASS_GLSL
+
 layout(local_size_x = kSlidesGroup) in;
 layout(push_constant, scalar) uniform Push
 {
@@ -20,3 +23,5 @@ uint firstsOf(uint first)
             firsts |= 1u << i;
     return firsts;
 }
+
+#endif

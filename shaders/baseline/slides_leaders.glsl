@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Compaction: the first of several neighbours that belong together is kept, at a place that the number of those before
 // it tells. A workgroup counts those of its block; the counts of blocks are scanned, and a second pass finds the places.
+#ifndef ZVO_SHADERS_BASELINE_SLIDES_LEADERS_GLSL
+#define ZVO_SHADERS_BASELINE_SLIDES_LEADERS_GLSL
+
 #define SCAN_GROUP kSlidesGroup
 #include "lib/scan.glsl"
 
@@ -50,3 +53,5 @@ uint placeOfKept(uint leaders, uint count, uint_Ptr partials)
     uint place = workgroupExclusiveAdd(uint(bitCount(leaders)), total);
     return workgroupIndex() * kSlidesBlock < count ? place + partials.data[workgroupIndex()] : place;
 }
+
+#endif

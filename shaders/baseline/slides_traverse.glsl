@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The traversal of baseline/slides_trace. The includer has its constants, and nodes and root and depth in params.
+#ifndef ZVO_SHADERS_BASELINE_SLIDES_TRAVERSE_GLSL
+#define ZVO_SHADERS_BASELINE_SLIDES_TRAVERSE_GLSL
 
 // Of a node that is being visited; the bits of the child that the ray is in, or one of these.
 const uint kNotBegun = 8u;
@@ -275,3 +277,5 @@ Found traverse(vec3 origin, vec3 inverse)
     }
     return found;
 }
+
+#endif

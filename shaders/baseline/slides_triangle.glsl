@@ -10,6 +10,8 @@
 // 256 n_w <= 2^59, fits.
 //
 // The includer includes voxelize/voxelize.h, defines kThin and has depth, origin and lattice_scale in params.
+#ifndef ZVO_SHADERS_BASELINE_SLIDES_TRIANGLE_GLSL
+#define ZVO_SHADERS_BASELINE_SLIDES_TRIANGLE_GLSL
 
 // Edge functions in a projection, of the edges from each corner to the next: a x + b y + c for the voxel at (x, y), with
 // the coverage's support added. A voxel is inside where all are not negative.
@@ -329,3 +331,5 @@ SlidesPieces slidesPieces(SlidesTriangle t)
     pieces.count = pieces.count_columns * uint((extent.y + pieces.rows - 1) / pieces.rows);
     return pieces;
 }
+
+#endif

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 // The dense cells of a level and their eight children each. The includer's parameters have voxels, children,
 // first_cell, cell_count, first_child and child_count.
+#ifndef ZVO_SHADERS_BASELINE_THESIS_CELLS_GLSL
+#define ZVO_SHADERS_BASELINE_THESIS_CELLS_GLSL
 
 layout(constant_id = 0) const bool kVoxels = false; // the children are voxels
 
@@ -30,3 +32,5 @@ PointerNode loadChild(uint child)
     }
     return node;
 }
+
+#endif

@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Between a triangle that is set up and what is kept of it from pass to pass.
+#ifndef ZVO_SHADERS_BASELINE_THESIS_TRIANGLE_GLSL
+#define ZVO_SHADERS_BASELINE_THESIS_TRIANGLE_GLSL
+
 #define EDGE_WIDE
 #define EDGE_INT int64_t
 #define EDGE_IVEC3 i64vec3
@@ -45,3 +48,5 @@ vec3 latticeNormal(RasterTriangle t, uint bits)
     vec3 n = mix(size, -size, equal(negative, uvec3(1u)));
     return t.axis == 0u ? n.zxy : (t.axis == 1u ? n.yzx : n);
 }
+
+#endif

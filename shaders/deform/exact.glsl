@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Arithmetic that gives the same bits on every device: single rounded operations, and no subnormal numbers.
+#ifndef ZVO_SHADERS_DEFORM_EXACT_GLSL
+#define ZVO_SHADERS_DEFORM_EXACT_GLSL
+
 #include "deform/deform.h"
 
 // v with components below 2^-100 replaced by 0.
@@ -54,3 +57,5 @@ uvec3 canonicalBits(vec3 v)
     bits = mix(bits, uvec3(kCanonicalNan), greaterThanEqual(size, uvec3(255u << 24)));
     return mix(bits, uvec3(0u), equal(size, uvec3(0u)));
 }
+
+#endif

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Division by the albedo. Where a channel of it is dark, the light is not known well in that channel. The includer
 // includes denoise/denoise.h before.
+#ifndef ZVO_SHADERS_DENOISE_ALBEDO_GLSL
+#define ZVO_SHADERS_DENOISE_ALBEDO_GLSL
 
 bool isDark(vec3 albedo)
 {
@@ -21,3 +23,5 @@ vec3 lightOf(vec3 scattered, vec3 albedo)
     float known_count = dot(known, vec3(1.0));
     return known_count == 0.0 ? light : mix(vec3(dot(light, known) / known_count), light, known);
 }
+
+#endif

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Guides of the filter (denoise.h), packed and compared. The includer includes denoise/denoise.h and lib/camera.glsl
 // before.
+#ifndef ZVO_SHADERS_DENOISE_GUIDE_GLSL
+#define ZVO_SHADERS_DENOISE_GUIDE_GLSL
 
 /// What a pixel shows.
 struct Guide
@@ -87,3 +89,5 @@ float alikeness(Guide guide, Guide other, vec3 way, float edge)
 {
     return other.coverage * exp(-distanceFromPlane(guide, way, edge) / kPlanesApart - turnOf(guide, other));
 }
+
+#endif

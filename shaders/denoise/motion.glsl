@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Where a camera sees a place. The includer includes shared/trace.h before.
+#ifndef ZVO_SHADERS_DENOISE_MOTION_GLSL
+#define ZVO_SHADERS_DENOISE_MOTION_GLSL
 
 // Coordinates in pixels, whole numbers at the pixels' centres, of a place from the camera's origin; far outside if it
 // is behind the camera.
@@ -11,3 +13,5 @@ vec2 pixelOfPlace(vec3 place, uvec2 size, bool orthographic, CameraRays camera)
                   dot(offset, camera.half_pixel_y) / dot(camera.half_pixel_y, camera.half_pixel_y));
     return !orthographic && depth <= 0.0 ? vec2(-1e6) : 0.5 * (n + vec2(size)) - 0.5;
 }
+
+#endif

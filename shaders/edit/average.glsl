@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: MIT
 // The attributes of the nodes that a dab changes. The includer has params with cells, states and averages.
+#ifndef ZVO_SHADERS_EDIT_AVERAGE_GLSL
+#define ZVO_SHADERS_EDIT_AVERAGE_GLSL
+
 #include "lib/average.glsl"
 
 // Averages the node of a cell that has changed. children_offset: from a cell's first child to children. Call in uniform
@@ -18,3 +21,5 @@ void averageCell(uint index, bool exists, AVERAGE_CHILDREN children, uint childr
     if (is_written && laneOfNode() == 0u)
         params.averages.data[cell.node + params.attribute_offset] = has_children ? mean : Attribute(0u, 0u);
 }
+
+#endif

@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: MIT
 // The cells of a dab (edit/edit.h), and which voxels its brush covers.
+#ifndef ZVO_SHADERS_EDIT_CELLS_GLSL
+#define ZVO_SHADERS_EDIT_CELLS_GLSL
+
 #include "edit/edit.h"
 
 // The shift from coordinates of voxels to those of a level's cells.
@@ -82,3 +85,5 @@ ivec3 brushNormal(Brush brush, uvec3 voxel)
     ivec3 side = ivec3(size.x == most ? away.x : 0, size.y == most ? away.y : 0, size.z == most ? away.z : 0);
     return brush.shape == kBrushBox ? side : away;
 }
+
+#endif

@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Counts of kept elements (nodes, or words of voxels) in blocks of kScanBlock.
+#ifndef ZVO_SHADERS_EDIT_KEPT_GLSL
+#define ZVO_SHADERS_EDIT_KEPT_GLSL
+
 #include "edit/compact.h"
 #include "lib/dispatch.glsl"
 #define SCAN_GROUP kScanGroup
@@ -25,3 +28,5 @@ void keptOfThread(uint first, out uint kept[kScanItems], out uint sum)
         sum += kept[i];
     }
 }
+
+#endif

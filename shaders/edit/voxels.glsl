@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: MIT
 // The voxels of changed leaves, one a thread.
+#ifndef ZVO_SHADERS_EDIT_VOXELS_GLSL
+#define ZVO_SHADERS_EDIT_VOXELS_GLSL
+
 #include "edit/cells.glsl"
 #include "lib/dispatch.glsl"
 #include "lib/morton.glsl"
@@ -41,3 +44,5 @@ EditVoxel editVoxel()
     }
     return voxel;
 }
+
+#endif

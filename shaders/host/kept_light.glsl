@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Light that is kept on voxels, and what rays of a point find: a part of host/trace.glsl, which says how it is used and
 // includes this file behind all else.
+#ifndef ZVO_SHADERS_HOST_KEPT_LIGHT_GLSL
+#define ZVO_SHADERS_HOST_KEPT_LIGHT_GLSL
+
 #include "lib/frame.glsl"
 #include "lib/sobol.glsl"
 #include "radiance/kept_faces.h"
@@ -225,4 +228,6 @@ vec4 zvo_cone(KeptLightTable_ConstPtr light, TreeTable_ConstPtr tree, vec3 origi
     vec4 found = lightThroughCone(tree, origin, normalize(direction), tan(0.5 * aperture), reach, seed);
     return vec4(found.rgb + found.w * zvo_outside(light, direction), found.w);
 }
+#endif
+
 #endif

@@ -6,6 +6,9 @@
 //   uint here = arrivingThreads();
 //   uint before = subgroupElect() ? atomicAdd(counters.arrived, here) : 0u; // cleared before the dispatch
 //   if (areLastThreads(before, here, groups * gl_WorkGroupSize.x)) ...
+#ifndef ZVO_SHADERS_LIB_ARRIVALS_GLSL
+#define ZVO_SHADERS_LIB_ARRIVALS_GLSL
+
 #extension GL_KHR_shader_subgroup_basic : require
 #extension GL_KHR_shader_subgroup_ballot : require
 
@@ -24,3 +27,5 @@ bool areLastThreads(uint before, uint here, uint threads)
     memoryBarrierBuffer();
     return last;
 }
+
+#endif

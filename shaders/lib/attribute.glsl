@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Packing of attributes in integers, so that every device packs the same bytes.
+#ifndef ZVO_SHADERS_LIB_ATTRIBUTE_GLSL
+#define ZVO_SHADERS_LIB_ATTRIBUTE_GLSL
+
 #include "lib/normal_code.glsl"
 #include "shared/scene.h"
 
@@ -60,3 +63,5 @@ uvec3 linearColor(LinearTable table, uint color)
     return uvec3(linearOf(table, color & 255u), linearOf(table, (color >> 8) & 255u),
                  linearOf(table, (color >> 16) & 255u));
 }
+
+#endif

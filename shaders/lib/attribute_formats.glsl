@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Unpacks attributes of all formats, in integers; src/core/tree/attribute_format.cpp does the same on the host.
+#ifndef ZVO_SHADERS_LIB_ATTRIBUTE_FORMATS_GLSL
+#define ZVO_SHADERS_LIB_ATTRIBUTE_FORMATS_GLSL
+
 #include "lib/normal_code.glsl"
 #include "shared/attribute_formats.h"
 
@@ -93,3 +96,5 @@ Attribute readAttribute(uint format, bool voxel, Attribute_ConstPtr voxels, Attr
     uvec2 stored = unpackUint2x32(uint64_t_ConstPtr(address).data[index]);
     return Attribute(stored.x, stored.y);
 }
+
+#endif

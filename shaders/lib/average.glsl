@@ -7,6 +7,9 @@
 //   kLanes             of a node, a power of two; 1: nobody meets at barriers
 //   AVERAGE_CHILDREN   the pointer to children's attributes: Attribute_Ptr where the dispatch writes some of them itself
 //   CHILDREN_BINDING   optional: the binding of `children` in the kernel's bound form (lib/bound.glsl)
+#ifndef ZVO_SHADERS_LIB_AVERAGE_GLSL
+#define ZVO_SHADERS_LIB_AVERAGE_GLSL
+
 #include "lib/attribute.glsl"
 
 const uint kChildrenAtOnce = 4u; // that a lane loads before it looks at them
@@ -147,3 +150,5 @@ Attribute averageChildren(SceneView_ConstPtr scene, Node node, AVERAGE_CHILDREN 
     bool is_short = (size.x + size.y + size.z) * kNoNormalRatio < divisor * uint(kNormalOne);
     return Attribute(packColor(scene, color, sums.flags), is_short ? kNoNormal : encodeNormal(sums.normal));
 }
+
+#endif

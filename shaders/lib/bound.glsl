@@ -6,6 +6,9 @@
 //
 //   TEXELS_2(0, nodes);           binding 0, texels2_nodes: the bytes of nodes in texels of 2 words of 32 bits
 //   STORAGE(1, uint, bricks);     binding 1, storage_bricks.data[]: the buffer as an array of uint, for atomics
+#ifndef ZVO_SHADERS_LIB_BOUND_GLSL
+#define ZVO_SHADERS_LIB_BOUND_GLSL
+
 #ifdef BOUND
 #define TEXELS_1(BINDING, NAME) layout(set = 0, binding = BINDING) uniform usamplerBuffer texels1_##NAME
 #define TEXELS_2(BINDING, NAME) layout(set = 0, binding = BINDING) uniform usamplerBuffer texels2_##NAME
@@ -17,4 +20,6 @@
         TYPE data[];                                                                                                   \
     }                                                                                                                  \
     storage_##NAME
+#endif
+
 #endif

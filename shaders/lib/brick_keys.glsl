@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Keys of the brick table (shared/bricks.h). The includer defines before:
 //   BRICKS_CONSTANT_ID    constant_id of kWideKeys
+#ifndef ZVO_SHADERS_LIB_BRICK_KEYS_GLSL
+#define ZVO_SHADERS_LIB_BRICK_KEYS_GLSL
+
 #include "lib/morton.glsl"
 #include "shared/bricks.h"
 
@@ -41,3 +44,5 @@ uint nodeOf(BrickEntry brick)
 {
     return kWideKeys ? brick.mask_lo : brick.base;
 }
+
+#endif

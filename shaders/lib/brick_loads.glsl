@@ -2,6 +2,9 @@
 // Loads of the brick table (shared/bricks.h). The includer has a kernel's parameters as params, with bricks, and defines
 // before:
 //   BRICKS_BINDING    optional: the binding of the table in the kernel's bound form (lib/bound.glsl)
+#ifndef ZVO_SHADERS_LIB_BRICK_LOADS_GLSL
+#define ZVO_SHADERS_LIB_BRICK_LOADS_GLSL
+
 #include "shared/bricks.h"
 
 #if defined(BOUND) && defined(BRICKS_BINDING)
@@ -34,5 +37,7 @@ MixedVoxels loadMixed(uint capacity, uint entry)
     uint64_t behind = uint64_t(params.bricks) + uint64_t(capacity) * kBrickBytes;
     return MixedVoxels_ConstPtr(behind).data[entry];
 }
+
+#endif
 
 #endif

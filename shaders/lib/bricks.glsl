@@ -11,6 +11,9 @@
 // the same key stop at the same entry, in any order, and the one that wrote the second word has claimed it. No entry
 // stays half full: the thread that wrote the first word goes on to the second, which becomes its own, or that of
 // another key with the same lower word.
+#ifndef ZVO_SHADERS_LIB_BRICKS_GLSL
+#define ZVO_SHADERS_LIB_BRICKS_GLSL
+
 #include "lib/brick_keys.glsl"
 #include "lib/brick_loads.glsl"
 
@@ -101,3 +104,5 @@ uint brickFind(uvec2 key, out BrickEntry brick)
     }
     return isSameKey(keyOf(brick), key) ? entry : kNoEntry;
 }
+
+#endif

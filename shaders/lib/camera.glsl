@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Rays of a picture's pixels, and the tiles that they are traced in. The includer includes trace/trace.h before.
+#ifndef ZVO_SHADERS_LIB_CAMERA_GLSL
+#define ZVO_SHADERS_LIB_CAMERA_GLSL
 
 // Twice the offset of a pixel's centre from the picture's, in pixels: exact.
 vec2 pixelOffset(uvec2 pixel, uvec2 size)
@@ -30,3 +32,5 @@ uvec2 unpackTile(uint tile)
 {
     return uvec2(bitfieldExtract(tile, 0, 16), tile >> 16);
 }
+
+#endif

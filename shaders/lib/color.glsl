@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Colours between their stored and their linear values.
+#ifndef ZVO_SHADERS_LIB_COLOR_GLSL
+#define ZVO_SHADERS_LIB_COLOR_GLSL
 
 vec3 decodeSrgb(vec3 code)
 {
@@ -56,3 +58,5 @@ vec3 heatColor(float x)
                       x < 0.5 ? 4.0 * x * (1.0 - x) - 2.0 * max(x - 0.25, 0.0) : 4.0 * x - 3.0),
                  0.0, 1.0);
 }
+
+#endif

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Numbers of workgroups and threads of dispatches that were folded from one dimension into two.
+#ifndef ZVO_SHADERS_LIB_DISPATCH_GLSL
+#define ZVO_SHADERS_LIB_DISPATCH_GLSL
 
 // Number of this workgroup in dispatch order.
 uint workgroupIndex()
@@ -19,3 +21,5 @@ uint interleave(uint index, uint count)
     uint half_count = (count + 1u) / 2u;
     return index < half_count ? 2u * index : 2u * (index - half_count) + 1u;
 }
+
+#endif

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Integer division without the dozens of instructions that devices spend on it.
+#ifndef ZVO_SHADERS_LIB_DIVIDE_GLSL
+#define ZVO_SHADERS_LIB_DIVIDE_GLSL
 
 // floor(a / b) for quotients up to 2^17 and b below 2^30: estimated in floating point, which is off by one at most
 // there, and corrected by the exact remainder.
@@ -23,3 +25,5 @@ uvec3 divideSmall(uvec3 a, uint b)
     ivec3 rest = ivec3(a - quotient * b);
     return quotient - uvec3(lessThan(rest, ivec3(0))) + uvec3(greaterThanEqual(rest, ivec3(int(b))));
 }
+
+#endif

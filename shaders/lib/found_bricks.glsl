@@ -2,6 +2,9 @@
 // Finds the occupied entries of a brick table, kCollectItems for each thread of workgroups of kCollectGroup, and counts
 // their voxels. To list them, a kernel takes room for a whole subgroup by one atomic; there are no barriers. The
 // includer includes lib/brick_loads.glsl.
+#ifndef ZVO_SHADERS_LIB_FOUND_BRICKS_GLSL
+#define ZVO_SHADERS_LIB_FOUND_BRICKS_GLSL
+
 #extension GL_KHR_shader_subgroup_arithmetic : require
 #extension GL_KHR_shader_subgroup_ballot : require
 
@@ -43,3 +46,5 @@ uint takeBrick(inout FoundBricks found)
     found.occupied &= found.occupied - 1u;
     return entry;
 }
+
+#endif

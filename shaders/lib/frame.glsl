@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: MIT
+#ifndef ZVO_SHADERS_LIB_FRAME_GLSL
+#define ZVO_SHADERS_LIB_FRAME_GLSL
 
 // Axes orthogonal to a direction of length 1, which is the last one (T. Duff et al., Building an Orthonormal Basis,
 // Revisited, 2017).
@@ -16,3 +18,5 @@ vec3 cosineDirection(float u, float angle)
 {
     return vec3(sqrt(u) * vec2(cos(angle), sin(angle)), sqrt(1.0 - u));
 }
+
+#endif

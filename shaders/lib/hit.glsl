@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Packing of hits (shared/trace.h). Hits move as 64-bit words: lavapipe pays per word, not per byte.
+#ifndef ZVO_SHADERS_LIB_HIT_GLSL
+#define ZVO_SHADERS_LIB_HIT_GLSL
+
 #include "shared/trace.h"
 
 const uint kHitCoordinateMask = (1u << kHitCoordinateBits) - 1u;
@@ -49,3 +52,5 @@ uint hitFace(Hit hit)
 {
     return bitfieldExtract(hit.where.y, int(kHitFaceShift - 32u), 2);
 }
+
+#endif

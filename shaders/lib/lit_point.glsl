@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 // The origin of rays that gather light for a hit. The includer includes trace/trace.h, lib/attribute_formats.glsl,
 // lib/hit.glsl, lib/surface_normal.glsl and lib/traverse.glsl before.
+#ifndef ZVO_SHADERS_LIB_LIT_POINT_GLSL
+#define ZVO_SHADERS_LIB_LIT_POINT_GLSL
 
 struct LitPoint
 {
@@ -30,3 +32,5 @@ LitPoint litPoint(Hit hit, vec3 direction, uint format, Attribute_ConstPtr voxel
     point.origin = middle + point.edge * (kLiftFace * face_normal + kLiftNormal * point.normal);
     return point;
 }
+
+#endif

@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: MIT
 // The voxels of touched leaves, and the layers' voxels at the same positions. The includer includes update/update.h.
+#ifndef ZVO_SHADERS_LIB_MERGE_GLSL
+#define ZVO_SHADERS_LIB_MERGE_GLSL
+
 #include "lib/emission.glsl"
 #include "lib/node.glsl"
 
@@ -139,3 +142,5 @@ uint emissionIndexIn(LayerVoxel layer_voxel)
 {
     return emissionIndex(layer_voxel.layer.emission_words, layer_voxel.voxel);
 }
+
+#endif

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Morton codes: x in bit 0, y in bit 1, z in bit 2 of every three.
+#ifndef ZVO_SHADERS_LIB_MORTON_GLSL
+#define ZVO_SHADERS_LIB_MORTON_GLSL
 
 // Spreads the lower 10 bits of v to every third bit (30 bits).
 uint spreadBits3(uint v)
@@ -54,3 +56,5 @@ uvec3 cellNumbered(uint number)
     uvec3 bits = uvec3(number, number >> 1, number >> 2);
     return (bits & 1u) | ((bits >> 2) & 2u);
 }
+
+#endif

@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Children of a node (shared/octree.h, shared/svdag.h).
+#ifndef ZVO_SHADERS_LIB_NODE_GLSL
+#define ZVO_SHADERS_LIB_NODE_GLSL
+
 #include "lib/lists.glsl"
 
 bool hasChild(Node node, uint cell)
@@ -23,3 +26,5 @@ uint listedChild(Node_ConstPtr pool, uint index, uint per_word)
         child = listEntry(uint64_t_ConstPtr(uint64_t(pool)), index & ~kChildList, per_word);
     return child;
 }
+
+#endif

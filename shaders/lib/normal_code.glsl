@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Octahedral codes of normals, in integers, so that every device packs the same bytes.
+#ifndef ZVO_SHADERS_LIB_NORMAL_CODE_GLSL
+#define ZVO_SHADERS_LIB_NORMAL_CODE_GLSL
+
 #include "lib/divide.glsl"
 #include "shared/octree.h"
 
@@ -72,3 +75,5 @@ ivec3 decodeNormal(uint code)
 {
     return code == kNoNormal ? ivec3(0) : unfoldNormal(normalCoordinates(code), kNormalOne);
 }
+
+#endif

@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: MIT
 // lib/octree_half.glsl with a bound form (lib/bound.glsl), in which nodes and lists come from texels of params.nodes.
+#ifndef ZVO_SHADERS_LIB_OCTREE_LOADS_GLSL
+#define ZVO_SHADERS_LIB_OCTREE_LOADS_GLSL
+
 #ifdef BOUND
 #include "shared/svdag.h"
 
@@ -26,4 +29,6 @@ uint loadEntry(uint index, uint per_word)
 }
 #else
 #include "lib/octree_half.glsl"
+#endif
+
 #endif

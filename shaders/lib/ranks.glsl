@@ -4,6 +4,9 @@
 // includer includes trace/trace.h and lib/node.glsl before and defines
 //   kEntriesPerWord    of lists
 //   RANKS_BINDING      optional: the binding of voxels_before_leaf in the kernel's bound form (lib/bound.glsl)
+#ifndef ZVO_SHADERS_LIB_RANKS_GLSL
+#define ZVO_SHADERS_LIB_RANKS_GLSL
+
 #include "lib/lists.glsl"
 
 // A node of the octree by its path.
@@ -96,3 +99,5 @@ void descendBase(RankSource source, BeforeChild_ConstPtr overlay_ranks, uint cel
         descend(source, cell, at);
     at.node = child;
 }
+
+#endif

@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Making rays for the traversal.
+#ifndef ZVO_SHADERS_LIB_RAY_GLSL
+#define ZVO_SHADERS_LIB_RAY_GLSL
+
 #include "lib/finite.glsl"
 
 const float kDirectionMin = 1e-20; // smaller components of a direction count as this
@@ -18,3 +21,5 @@ bool isTraceable(Ray ray)
     return isFinite(ray.origin) && isFinite(size) && min(size.x, min(size.y, size.z)) >= kTraceTimeMin &&
            isFinite(ray.t_min) && !isNan(ray.t_max);
 }
+
+#endif

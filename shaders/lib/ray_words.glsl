@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Loads and stores of rays as 64-bit words: lavapipe pays per word, not per byte. The includer includes shared/trace.h
 // before.
+#ifndef ZVO_SHADERS_LIB_RAY_WORDS_GLSL
+#define ZVO_SHADERS_LIB_RAY_WORDS_GLSL
 
 Ray loadRay(Ray_ConstPtr rays, uint i)
 {
@@ -20,3 +22,5 @@ void storeRay(Ray_Ptr rays, uint i, Ray ray)
     words.data[4u * i + 2u] = packUint2x32(floatBitsToUint(ray.inverse_direction.xy));
     words.data[4u * i + 3u] = packUint2x32(floatBitsToUint(vec2(ray.inverse_direction.z, ray.t_max)));
 }
+
+#endif

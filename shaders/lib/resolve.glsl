@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: MIT
 // From sums over a voxel's fragments to its attribute and its emission. The includer includes voxelize/voxelize.h.
+#ifndef ZVO_SHADERS_LIB_RESOLVE_GLSL
+#define ZVO_SHADERS_LIB_RESOLVE_GLSL
+
 #include "lib/attribute.glsl"
 
 // The sum of the fragments' normals.
@@ -73,3 +76,5 @@ void addEmission(inout EmissionSums sums, EmissionSums more, uint shift)
     sums.green += more.green >> shift;
     sums.blue += more.blue >> shift;
 }
+
+#endif

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Rays that used up the iterations of an invocation. The includer includes trace/trace.h before.
+#ifndef ZVO_SHADERS_LIB_ROUNDS_GLSL
+#define ZVO_SHADERS_LIB_ROUNDS_GLSL
 
 // Schedules the next round over the same workgroups (numbered by lib/dispatch.glsl). If there is none, counts the ray
 // as capped.
@@ -14,3 +16,5 @@ void endUnfinished(bool more, DispatchArgs_Ptr next_round, uint groups, TraceSta
     atomicMax(next_round.data[0].y, (groups - 1u) / kTilesFold + 1u);
     atomicMax(next_round.data[0].z, 1u);
 }
+
+#endif

@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Prefix sums over a workgroup of SCAN_GROUP threads (defined by the includer), whatever the subgroup size.
+#ifndef ZVO_SHADERS_LIB_SCAN_GLSL
+#define ZVO_SHADERS_LIB_SCAN_GLSL
+
 #extension GL_KHR_shader_subgroup_basic : require
 #extension GL_KHR_shader_subgroup_arithmetic : require
 
@@ -22,3 +25,5 @@ uint workgroupExclusiveAdd(uint value, out uint total)
     }
     return offset + before;
 }
+
+#endif

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 // A simple sky for pictures without an environment: y is up.
+#ifndef ZVO_SHADERS_LIB_SKY_GLSL
+#define ZVO_SHADERS_LIB_SKY_GLSL
 
 const vec3 kSunColor = vec3(1.0, 0.93, 0.82);
 const float kSunDiscCosine = 0.9995; // 1.8 degrees from the middle to the edge
@@ -25,3 +27,5 @@ float sunDisc(vec3 direction, vec3 to_sun)
 {
     return smoothstep(kSunDiscCosine - 0.0004, kSunDiscCosine + 0.0002, dot(direction, to_sun));
 }
+
+#endif

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Random numbers of samples: an Owen-scrambled Sobol sequence of two dimensions, for each pair of dimensions in another
 // order (B. Burley, Practical Hash-based Owen Scrambling, 2020). All in integers: the same numbers on every device.
+#ifndef ZVO_SHADERS_LIB_SOBOL_GLSL
+#define ZVO_SHADERS_LIB_SOBOL_GLSL
 
 // A hash of 32 bits (C. Wellons, Prospecting for Hash Functions, 2018: lowbias32).
 uint hash(uint x)
@@ -55,3 +57,5 @@ vec2 samplePair(uint index, uint seed, uint pair)
 {
     return vec2(sampleBits(index, seed, pair) >> 8) * (1.0 / 16777216.0);
 }
+
+#endif

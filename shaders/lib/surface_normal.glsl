@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Normals of hits.
+#ifndef ZVO_SHADERS_LIB_SURFACE_NORMAL_GLSL
+#define ZVO_SHADERS_LIB_SURFACE_NORMAL_GLSL
 
 // Normal of the face that the ray came in through; against the ray when it started inside.
 vec3 faceNormal(uint face, vec3 direction)
@@ -17,3 +19,5 @@ vec3 shadingNormal(uint code, vec3 face_normal, vec3 direction)
     vec3 normal = normalize(vec3(decodeNormal(code)));
     return dot(normal, face_normal) < 0.0 && dot(normal, direction) > 0.0 ? -normal : normal;
 }
+
+#endif

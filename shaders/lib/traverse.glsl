@@ -32,6 +32,8 @@
 //                                      names; kNodeLevels and kEntriesPerWord may be variables, set before each ray
 //   TRAVERSE_LEVELS                    a constant, at least kNodeLevels, for registers; must be defined if that is a
 //                                      variable
+#ifndef ZVO_SHADERS_LIB_TRAVERSE_GLSL
+#define ZVO_SHADERS_LIB_TRAVERSE_GLSL
 
 #ifndef TRAVERSE_VARIABLES
 #ifndef TRAVERSE_CONSTANT_ID
@@ -276,3 +278,5 @@ Traversal traverse(vec3 ray_origin, vec3 ray_inverse, float t_min, float t_max, 
 {
     return traverse(ray_origin, ray_inverse, t_min, t_max, detail, uvec3(0u), kIterationsMax);
 }
+
+#endif

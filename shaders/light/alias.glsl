@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 // What the kernels for alias tables share (environment.h). The includer includes light/environment.h and
 // lib/dispatch.glsl before and declares params.
+#ifndef ZVO_SHADERS_LIGHT_ALIAS_GLSL
+#define ZVO_SHADERS_LIGHT_ALIAS_GLSL
 
 // The weight in steps of cell i of a normal.
 uint weightOf(uint normal, uint i)
@@ -29,3 +31,5 @@ AliasSums sumsOf(uint normal, uint i, uint64_t total)
     return AliasSums(light ? total - weight : uint64_t(0), light ? uint64_t(0) : weight - total, light ? 1u : 0u,
                      light ? 0u : 1u);
 }
+
+#endif

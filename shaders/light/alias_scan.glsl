@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Sums over the threads of a workgroup of kAliasGroup threads. The includer includes light/alias.glsl before.
+#ifndef ZVO_SHADERS_LIGHT_ALIAS_SCAN_GLSL
+#define ZVO_SHADERS_LIGHT_ALIAS_SCAN_GLSL
 
 shared AliasSums s_sums[kAliasGroup];
 
@@ -24,3 +26,5 @@ AliasSums sumsBefore(AliasSums own, out AliasSums total)
     return AliasSums(sums.lacks - own.lacks, sums.gives - own.gives, sums.light_count - own.light_count,
                      sums.heavy_count - own.heavy_count);
 }
+
+#endif

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Packing of the bounds and sums of a node of the light tree (light_tree.h).
+#ifndef ZVO_SHADERS_LIGHT_BOUNDS_GLSL
+#define ZVO_SHADERS_LIGHT_BOUNDS_GLSL
 
 const uint kLightPartMax = (1u << kLightPartBits) - 1u;
 
@@ -30,3 +32,5 @@ vec3 unpackLightParts(uint parts, uint first)
     return vec3(uvec3(shifted, shifted >> kLightPartBits, shifted >> (2u * kLightPartBits)) & kLightPartMax) *
            (1.0 / float(kLightPartMax));
 }
+
+#endif

@@ -3,6 +3,9 @@
 // lib/morton.glsl and lib/node.glsl before, declares kNodeLevels and kByPower, and defines
 //   LIGHT_NODES    a LightNode_ConstPtr
 //   LIGHT_BRICKS   a LightBrick_ConstPtr
+#ifndef ZVO_SHADERS_LIGHT_CHOOSE_GLSL
+#define ZVO_SHADERS_LIGHT_CHOOSE_GLSL
+
 #include "light/importance.glsl"
 
 // A chosen face of an emissive voxel.
@@ -131,3 +134,5 @@ float lightProbability(LitPlace place, uvec3 voxel, uint face)
                ? probability * wanted_weight / (total * float(bitCount(exposed.x) + bitCount(exposed.y)))
                : 0.0;
 }
+
+#endif

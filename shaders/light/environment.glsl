@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Light from outside of the grid, and directions towards it (light/environment.h). The includer includes
 // light/environment.h before.
+#ifndef ZVO_SHADERS_LIGHT_ENVIRONMENT_GLSL
+#define ZVO_SHADERS_LIGHT_ENVIRONMENT_GLSL
+
 #include "light/map_radiance.glsl"
 #include "lib/frame.glsl"
 
@@ -71,3 +74,5 @@ bool meetsSun(Environment_ConstPtr environment, vec3 direction)
     vec3 offset = direction - environment.data[0].to_sun;
     return dot(offset, offset) <= 2.0 * environment.data[0].sun_height;
 }
+
+#endif

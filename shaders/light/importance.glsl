@@ -2,6 +2,9 @@
 // How much a place may receive of the lights of a node of the light tree (light_tree.h). The includer includes
 // light/light_tree.h before, declares kNodeLevels, and defines
 //   LIGHT_NODES    a LightNode_ConstPtr
+#ifndef ZVO_SHADERS_LIGHT_IMPORTANCE_GLSL
+#define ZVO_SHADERS_LIGHT_IMPORTANCE_GLSL
+
 #include "light/bounds.glsl"
 
 // A point of a surface with a normal along an axis.
@@ -50,3 +53,5 @@ float lightImportance(LitPlace place, uint node, bool by_power)
     weighFaces(place, node, by_power, up, down);
     return dot(up + down, vec3(1.0));
 }
+
+#endif

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Goes down the voxel tree from a node under construction (light_tree.h). The includer includes light/light_tree.h and
 // lib/node.glsl before and declares kNodeLevels, kEntriesPerWord and params.tree.
+#ifndef ZVO_SHADERS_LIGHT_ITEM_GLSL
+#define ZVO_SHADERS_LIGHT_ITEM_GLSL
+
 #include "lib/emission.glsl"
 #include "lib/ranks.glsl"
 
@@ -56,3 +59,5 @@ bool isEmissive(uint voxel)
 {
     return ((params.tree.data[0].emission_words.data[voxel >> 5].x >> (voxel & 31u)) & 1u) != 0u;
 }
+
+#endif

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Directions of an environment map (light/environment.h).
-#ifndef ZVO_SHADERS_LIB_ENVIRONMENT_MAP_GLSL
-#define ZVO_SHADERS_LIB_ENVIRONMENT_MAP_GLSL
+#ifndef ZVO_SHADERS_LIGHT_MAP_GLSL
+#define ZVO_SHADERS_LIGHT_MAP_GLSL
 
 const float kPi = 3.14159265358979;
 

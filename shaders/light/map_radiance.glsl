@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: MIT
 // What an environment map shows. The includer includes light/outside.h before.
+#ifndef ZVO_SHADERS_LIGHT_MAP_RADIANCE_GLSL
+#define ZVO_SHADERS_LIGHT_MAP_RADIANCE_GLSL
+
 #include "light/map.glsl"
 
 // Radiance of the map from a direction (length 1).
@@ -20,3 +23,5 @@ vec3 mapRadiance(Environment_ConstPtr environment, vec3 direction)
            mix(mix(texels.data[above + left], texels.data[above + right], part.x),
                mix(texels.data[below + left], texels.data[below + right], part.x), part.y);
 }
+
+#endif

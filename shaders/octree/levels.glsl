@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: MIT
 // The levels of listed nodes, from the leaves up.
+#ifndef ZVO_SHADERS_OCTREE_LEVELS_GLSL
+#define ZVO_SHADERS_OCTREE_LEVELS_GLSL
+
 #include "lib/dispatch_args.glsl"
 
 // Workgroups for one thread a node.
@@ -18,3 +21,5 @@ void setLevel(LevelRange_Ptr ranges, DispatchArgs_Ptr args, uint height, uint no
     ranges.data[height] = LevelRange(first, node_count - first);
     args.data[height] = nodeArgs(node_count - first, max_groups_x);
 }
+
+#endif

@@ -2,6 +2,9 @@
 // A node gets its number: its parent's child base plus its rank among the parent's children. Until its own child base
 // is known, base_hi of the node holds its entry in the brick table. The includer has a kernel's parameters as params,
 // and lib/brick_keys.glsl.
+#ifndef ZVO_SHADERS_OCTREE_PLACE_GLSL
+#define ZVO_SHADERS_OCTREE_PLACE_GLSL
+
 #include "lib/node.glsl"
 
 // Returns the number.
@@ -19,3 +22,5 @@ uint placeNode(WorkItem item, bool is_root, out uint children)
     children = bitCount(brick.mask_lo) + bitCount(brick.mask_hi);
     return node;
 }
+
+#endif

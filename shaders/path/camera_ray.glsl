@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Rays from the camera. The includer includes path/path.h, lib/camera.glsl, lib/ray.glsl, lib/sobol.glsl and
 // path/numbers.glsl before and declares kOrthographic.
+#ifndef ZVO_SHADERS_PATH_CAMERA_RAY_GLSL
+#define ZVO_SHADERS_PATH_CAMERA_RAY_GLSL
 
 // The seed of a pixel's random numbers.
 uint seedOfPixel(PathView view, uvec2 pixel)
@@ -27,3 +29,5 @@ Ray cameraRay(PathView view, uvec2 pixel, uint seed, uint sample_index)
     direction -= shift / view.focus;
     return Ray(origin, 0.0, inverseDirection(normalize(direction)), kTraceTimeMax);
 }
+
+#endif

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Chosen lights. The includer includes path/path.h, path/face.glsl and path/weights.glsl before.
+#ifndef ZVO_SHADERS_PATH_CHOSEN_GLSL
+#define ZVO_SHADERS_PATH_CHOSEN_GLSL
 
 // A light that was chosen for a place on a face.
 struct ChosenDirection
@@ -26,3 +28,5 @@ bool isLit(vec3 light)
 {
     return max(light.r, max(light.g, light.b)) > 0.0;
 }
+
+#endif

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Light of voxels that rays have hit. The includer includes path/path.h, lib/hit.glsl, light/choose.glsl,
 // path/emission.glsl, path/face.glsl and path/weights.glsl before and declares kSampling.
+#ifndef ZVO_SHADERS_PATH_EMITTER_GLSL
+#define ZVO_SHADERS_PATH_EMITTER_GLSL
 
 // What a ray that has hit an emissive voxel brings to the pixel.
 vec3 lightOfHit(PathState state, Ray ray, Hit hit)
@@ -17,3 +19,5 @@ vec3 lightOfHit(PathState state, Ray ray, Hit hit)
     }
     return state.throughput * (emissionOf(hit.index) * chanceWeight(state, density));
 }
+
+#endif

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Faces of voxels. Their normals are numbered as in LightBrick::exposed.
+#ifndef ZVO_SHADERS_PATH_FACE_GLSL
+#define ZVO_SHADERS_PATH_FACE_GLSL
 
 // The normal with a number.
 vec3 normalAxis(uint normal)
@@ -15,3 +17,5 @@ uint normalOfHit(uint face, vec3 direction)
     float along = face == 0u ? direction.x : face == 1u ? direction.y : direction.z;
     return face + (along < 0.0 ? 0u : 3u);
 }
+
+#endif

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Sums of what the camera's rays see. The includer includes path/features.glsl and trace/surface.glsl before and
 // declares params.attributes and params.features.
+#ifndef ZVO_SHADERS_PATH_FEATURE_SUM_GLSL
+#define ZVO_SHADERS_PATH_FEATURE_SUM_GLSL
 
 // Adds what the ray of a sample sees. direct: radiance that it has met.
 void addFeatures(uint pixel, Ray ray, Hit hit, vec3 direct, vec3 origin, vec3 forward)
@@ -16,3 +18,5 @@ void addFeatures(uint pixel, Ray ray, Hit hit, vec3 direct, vec3 origin, vec3 fo
     }
     storeFeatures(params.features, pixel, sum);
 }
+
+#endif

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Loads, stores and sums of features; they move as 64-bit words, as rays do. The includer includes path/path.h before.
+#ifndef ZVO_SHADERS_PATH_FEATURES_GLSL
+#define ZVO_SHADERS_PATH_FEATURES_GLSL
 
 PixelFeatures loadFeatures(PixelFeatures_ConstPtr features, uint i)
 {
@@ -23,3 +25,5 @@ void storeFeatures(PixelFeatures_Ptr features, uint i, PixelFeatures sum)
     words.data[6u * i + 4u] = packUint2x32(floatBitsToUint(sum.direct.xy));
     words.data[6u * i + 5u] = packUint2x32(floatBitsToUint(vec2(sum.direct.z, sum.scattered_squared)));
 }
+
+#endif

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Voxels that rays have hit. The includer includes lib/attribute_formats.glsl, lib/color.glsl and trace/surface.glsl
 // before and declares kFormat and params.
+#ifndef ZVO_SHADERS_PATH_HIT_VOXEL_GLSL
+#define ZVO_SHADERS_PATH_HIT_VOXEL_GLSL
 
 // The attribute of a voxel that was hit.
 Attribute attributeAt(bool hits, Hit hit)
@@ -15,3 +17,5 @@ vec3 albedoOf(Attribute stored)
 {
     return kFormat == kFormatNone ? kPlainAlbedo : decodeSrgb(unpackUnorm4x8(stored.color).rgb);
 }
+
+#endif

@@ -2,6 +2,8 @@
 // How a path leaves a face: in a random direction, with a kind of light to look for. The includer includes path/path.h,
 // lib/frame.glsl, lib/hit.glsl, lib/ray.glsl, lib/sobol.glsl, light/importance.glsl, path/face.glsl and
 // path/numbers.glsl before and declares kNodeLevels, kEmission and params.
+#ifndef ZVO_SHADERS_PATH_LEAVE_GLSL
+#define ZVO_SHADERS_PATH_LEAVE_GLSL
 
 // How a path goes on.
 struct NextRay
@@ -59,3 +61,5 @@ bool seeksVoxelLight(NextRay next)
 {
     return next.exists && !seeksMapLight(next) && next.state.kinds.z > 0.0;
 }
+
+#endif

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Lists paths by the light that they look for. The includer includes path/leave.glsl and path/lists.glsl before, and
 // declares kEmission; params has numbers and batch, too.
+#ifndef ZVO_SHADERS_PATH_LIST_CHOSEN_GLSL
+#define ZVO_SHADERS_PATH_LIST_CHOSEN_GLSL
 
 // set: of lists. All threads of a subgroup call this together.
 void listChosen(NextRay next, uint path, uint set)
@@ -17,3 +19,5 @@ void listChosen(NextRay next, uint path, uint set)
             params.numbers.data[kListVoxelLights * params.batch + voxel_light] = path;
     }
 }
+
+#endif

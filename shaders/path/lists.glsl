@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Lists that grow while kernels run (path.h). The includer includes path/path.h before and declares params.lists.
+#ifndef ZVO_SHADERS_PATH_LISTS_GLSL
+#define ZVO_SHADERS_PATH_LISTS_GLSL
+
 #extension GL_KHR_shader_subgroup_basic : require
 #extension GL_KHR_shader_subgroup_arithmetic : require
 
@@ -29,3 +32,5 @@ uint appendTo(uint bounce, uint list, bool has_one)
     }
     return subgroupAdd(first) + before;
 }
+
+#endif

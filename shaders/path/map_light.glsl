@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Choosing light from outside of the grid. The includer includes path/path.h, lib/sobol.glsl, light/environment.glsl,
 // path/numbers.glsl and path/chosen.glsl before and declares params.
+#ifndef ZVO_SHADERS_PATH_MAP_LIGHT_GLSL
+#define ZVO_SHADERS_PATH_MAP_LIGHT_GLSL
 
 // A direction to the map, or to the sun, for a path that leaves a face.
 ChosenDirection chooseMapLight(PathState state, uint bounce)
@@ -24,3 +26,5 @@ ChosenDirection chooseMapLight(PathState state, uint bounce)
     }
     return chosen;
 }
+
+#endif

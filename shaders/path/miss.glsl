@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Light from outside of the grid. The includer includes path/path.h, light/environment.glsl and path/weights.glsl before
 // and declares kSampling and params.
+#ifndef ZVO_SHADERS_PATH_MISS_GLSL
+#define ZVO_SHADERS_PATH_MISS_GLSL
 
 // What a ray that has left the grid brings to the pixel.
 vec3 lightOfMiss(PathState state, Ray ray)
@@ -14,3 +16,5 @@ vec3 lightOfMiss(PathState state, Ray ray)
         light += params.environment.data[0].sun * chanceWeight(state, state.kinds.y * sunDensity(params.environment));
     return state.throughput * light;
 }
+
+#endif

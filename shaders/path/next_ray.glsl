@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 // How a path goes on from a hit. The includer includes path/path.h, lib/hit.glsl, path/hit_voxel.glsl and
 // path/leave.glsl before and declares kRoulette and params.
+#ifndef ZVO_SHADERS_PATH_NEXT_RAY_GLSL
+#define ZVO_SHADERS_PATH_NEXT_RAY_GLSL
 
 const float kRouletteMax = 0.95; // probability to go on
 const uint kRouletteFirst = 3u;  // bounce
@@ -27,3 +29,5 @@ NextRay nextRay(PathState state, Ray ray, bool hits, Hit hit, Attribute stored, 
     leaveFace(pointOnFace(point, hitCell(hit), normalAxis(state.normal)), bounce, next);
     return next;
 }
+
+#endif

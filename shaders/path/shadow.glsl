@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Lists of shadow rays. The includer includes path/path.h, lib/ray.glsl, path/lists.glsl, path/state.glsl and
 // path/chosen.glsl before and declares params.
+#ifndef ZVO_SHADERS_PATH_SHADOW_GLSL
+#define ZVO_SHADERS_PATH_SHADOW_GLSL
 
 // Lists a shadow ray, unless it cannot bring light. Threads without a path take part, too.
 void appendShadow(bool exists, vec3 origin, PathState state, ChosenDirection chosen)
@@ -16,3 +18,5 @@ void appendShadow(bool exists, vec3 origin, PathState state, ChosenDirection cho
     words.data[3u * shadow + 1u] = packUint2x32(uvec2(floatBitsToUint(light.z), state.slot));
     words.data[3u * shadow + 2u] = packUint2x32(chosen.target);
 }
+
+#endif

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 // States of paths, and their loads and stores as 64-bit words, as those of rays. The includer includes path/path.h
 // before.
+#ifndef ZVO_SHADERS_PATH_STATE_GLSL
+#define ZVO_SHADERS_PATH_STATE_GLSL
+
 #include "lib/ray_words.glsl"
 
 // The state of a path that begins.
@@ -29,3 +32,5 @@ void storeState(PathState_Ptr states, uint i, PathState state)
     words.data[5u * i + 3u] = packUint2x32(floatBitsToUint(vec2(state.density, state.kinds.x)));
     words.data[5u * i + 4u] = packUint2x32(floatBitsToUint(state.kinds.yz));
 }
+
+#endif

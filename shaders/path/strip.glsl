@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The numbers of pixels (path.h). The includer includes path/path.h before.
+#ifndef ZVO_SHADERS_PATH_STRIP_GLSL
+#define ZVO_SHADERS_PATH_STRIP_GLSL
 
 uvec2 pixelOfNumber(uint number, uvec2 size)
 {
@@ -15,3 +17,5 @@ uint numberOfPixel(uvec2 pixel, uvec2 size)
     uint rows = min(kStripRows, size.y - strip * kStripRows);
     return strip * kStripRows * size.x + pixel.x * rows + pixel.y % kStripRows;
 }
+
+#endif

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Sums of samples. The includer includes path/path.h and lib/luminance.glsl before.
+#ifndef ZVO_SHADERS_PATH_SUM_GLSL
+#define ZVO_SHADERS_PATH_SUM_GLSL
 
 // Adds a sample of a pixel, of which no other thread has one at the same time.
 void addSample(PixelSum_Ptr sums, uint pixel, vec3 radiance)
@@ -15,3 +17,5 @@ void addScattered(PixelFeatures_Ptr features, uint pixel, vec3 radiance, float d
     float scattered = luminance(radiance) - direct;
     features.data[pixel].scattered_squared += scattered * scattered;
 }
+
+#endif

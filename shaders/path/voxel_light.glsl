@@ -2,6 +2,8 @@
 // Choosing light of voxels. The includer includes path/path.h, lib/hit.glsl, lib/sobol.glsl, light/choose.glsl,
 // path/emission.glsl, path/face.glsl, path/numbers.glsl, path/point_of_face.glsl and path/chosen.glsl before and declares
 // params.
+#ifndef ZVO_SHADERS_PATH_VOXEL_LIGHT_GLSL
+#define ZVO_SHADERS_PATH_VOXEL_LIGHT_GLSL
 
 // A point of a face of an emissive voxel, for a path that leaves a face at origin.
 ChosenDirection chooseVoxelLight(PathState state, vec3 origin, uint bounce)
@@ -26,3 +28,5 @@ ChosenDirection chooseVoxelLight(PathState state, vec3 origin, uint bounce)
     }
     return chosen;
 }
+
+#endif

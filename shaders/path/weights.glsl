@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Weights of light that can be found in two ways (path.h). The includer declares kSampling.
+#ifndef ZVO_SHADERS_PATH_WEIGHTS_GLSL
+#define ZVO_SHADERS_PATH_WEIGHTS_GLSL
 
 // The weight of light that was found in one way, by the densities of this and the other way.
 float balance(float own, float other)
@@ -16,3 +18,5 @@ float chanceWeight(PathState state, float light_density)
         return 1.0;
     return kSampling == kSampleLights ? 0.0 : balance(state.density, light_density);
 }
+
+#endif

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Light between the faces of a plane. The includer includes lib/hit.glsl, radiance/face_table.glsl,
 // radiance/kept_light.glsl and radiance/plane.glsl before.
+#ifndef ZVO_SHADERS_RADIANCE_BETWEEN_FACES_GLSL
+#define ZVO_SHADERS_RADIANCE_BETWEEN_FACES_GLSL
 
 // The light at a place on a face, from those four faces with the same normal in the same plane whose middles are around
 // it, as far as they keep any; then w is more than 0, and xyz are to be divided by it. Likewise between bricks. cell:
@@ -34,3 +36,5 @@ vec4 lightBetweenFaces(uvec3 cell, uint normal, vec3 place, uint level)
     KeptFace here;
     return lightBetweenFaces(cell, normal, place, level, slot, here);
 }
+
+#endif

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 // How a brick keeps its spread (radiance/share_of_brick.glsl): FaceState::own of a brick. The includer includes
 // radiance/share_of_brick.glsl before.
+#ifndef ZVO_SHADERS_RADIANCE_BRICK_SPREAD_GLSL
+#define ZVO_SHADERS_RADIANCE_BRICK_SPREAD_GLSL
 
 // The total as a float; the other number as one without its last 10 bits, where the number of samples is.
 BrickSpread spreadIn(uvec2 words, out uint samples)
@@ -14,3 +16,5 @@ uvec2 packSpread(BrickSpread spread, uint samples, uint random)
 {
     return uvec2(floatBitsToUint(spread.total), ((floatBitsToUint(spread.between) + random) & ~1023u) | samples);
 }
+
+#endif

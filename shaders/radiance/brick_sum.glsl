@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Sums of bricks (radiance.h): integers, so that the order of threads does not matter. The includer includes
 // radiance/radiance.h and radiance/kept_light.glsl before, and declares params.sums.
+#ifndef ZVO_SHADERS_RADIANCE_BRICK_SUM_GLSL
+#define ZVO_SHADERS_RADIANCE_BRICK_SUM_GLSL
 
 const float kSumMost = 67108860.0; // steps of a sample, so that 64 fit: 2^26 - 4
 
@@ -27,3 +29,5 @@ void addLight(uint index, float unit, vec3 radiance, vec3 thresholds, uint count
 const uint kSumOfSample = 1u;
 const uint kSumOfMove = 1u << 8;
 const uint kSumOfSpread = 1u << 16;
+
+#endif

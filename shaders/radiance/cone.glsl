@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Light through a cone (C. Crassin et al., Interactive Indirect Illumination Using Voxel Cone Tracing, 2011). The
 // includer includes trace/any_tree.glsl with ZVO_DETAIL, and radiance/light_of_brick.glsl, before.
+#ifndef ZVO_SHADERS_RADIANCE_CONE_GLSL
+#define ZVO_SHADERS_RADIANCE_CONE_GLSL
 
 const uint kConeSteps = 32u;             // nodes that a cone meets or leaves, at most
 const float kConeStep = 0.01;            // out of a node, in voxels
@@ -169,3 +171,5 @@ vec4 lightThroughCone(TreeTable_ConstPtr tree, vec3 origin, vec3 direction, floa
     // What too many nodes have let through has not met nothing.
     return vec4(sum, t >= t_max && through > kConeThrough ? through : 0.0);
 }
+
+#endif

@@ -3,6 +3,8 @@
 // params.faces, and defines
 //   FACES_BINDING     optional: the binding for params.faces
 //   STATES_BINDING    where params has states: the binding for them
+#ifndef ZVO_SHADERS_RADIANCE_FACE_KEY_GLSL
+#define ZVO_SHADERS_RADIANCE_FACE_KEY_GLSL
 
 // cell: of the level. normal: its number as in LightBrick::exposed.
 uvec2 faceKey(uvec3 cell, uint normal, uint level)
@@ -66,5 +68,7 @@ FaceState loadFaceState(uint slot)
     uvec2 first = unpackUint2x32(words.data[2u * slot]);
     return FaceState(first.x, first.y, unpackUint2x32(words.data[2u * slot + 1u]));
 }
+
+#endif
 
 #endif

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The table of faces (radiance.h). The includer includes radiance/face_key.glsl before; params has run_count, too.
+#ifndef ZVO_SHADERS_RADIANCE_FACE_TABLE_GLSL
+#define ZVO_SHADERS_RADIANCE_FACE_TABLE_GLSL
 
 const uint kNoFace = ~0u;
 
@@ -35,3 +37,5 @@ uint findFace(uvec3 cell, uint normal, uint level, out KeptFace face)
     }
     return face.key == key ? slot : kNoFace;
 }
+
+#endif

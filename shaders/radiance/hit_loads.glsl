@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Loads of params.hits. The includer includes lib/hit.glsl and lib/bound.glsl before, declares params, and defines
 //   HITS_BINDING    the binding for them in the kernel's bound form
+#ifndef ZVO_SHADERS_RADIANCE_HIT_LOADS_GLSL
+#define ZVO_SHADERS_RADIANCE_HIT_LOADS_GLSL
 
 #ifdef BOUND
 
@@ -18,5 +20,7 @@ Hit hitAt(uint i)
 {
     return loadHit(params.hits, i);
 }
+
+#endif
 
 #endif

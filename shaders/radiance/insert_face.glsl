@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Inserts faces into the table. The includer includes radiance/face_table.glsl before; params has counters, too.
+#ifndef ZVO_SHADERS_RADIANCE_INSERT_FACE_GLSL
+#define ZVO_SHADERS_RADIANCE_INSERT_FACE_GLSL
 
 #define FACE_WORD(SLOT, WORD) uint_Ptr(uint64_t(params.faces) + uint64_t(SLOT) * kKeptFaceBytes).data[WORD]
 
@@ -34,3 +36,5 @@ uint insertFace(uvec3 cell, uint normal, uint level)
         atomicAdd(params.counters.data[0].refused, 1u);
     return searching ? kNoFace : slot;
 }
+
+#endif

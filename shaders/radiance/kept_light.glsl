@@ -4,6 +4,8 @@
 //
 // thresholds: three numbers in [0, 1). A channel is rounded up where its fraction is above one minus that. So means of
 // many small steps stay unbiased.
+#ifndef ZVO_SHADERS_RADIANCE_KEPT_LIGHT_GLSL
+#define ZVO_SHADERS_RADIANCE_KEPT_LIGHT_GLSL
 
 vec3 thresholdsOf(uint random)
 {
@@ -57,3 +59,5 @@ uint packRecent(vec3 radiance, vec3 thresholds)
     uvec3 mantissas = mantissasOf(radiance, exponent, 8, thresholds);
     return mantissas.r | (mantissas.g << 8) | (mantissas.b << 16) | (uint(exponent + kRecentBias) << 24);
 }
+
+#endif

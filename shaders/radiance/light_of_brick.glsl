@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Light of bricks, where no face keeps any. The includer includes radiance/face_table.glsl and radiance/kept_light.glsl
 // before.
+#ifndef ZVO_SHADERS_RADIANCE_LIGHT_OF_BRICK_GLSL
+#define ZVO_SHADERS_RADIANCE_LIGHT_OF_BRICK_GLSL
 
 // The light of the faces with a normal in the least brick around a voxel's cell that keeps some. w: 1; 0 where none
 // does, or where none is asked for.
@@ -15,3 +17,5 @@ vec4 lightOfBrick(uvec3 cell, uint normal, bool is_asked)
     }
     return light;
 }
+
+#endif

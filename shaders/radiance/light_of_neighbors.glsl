@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Light of the faces beside one that keeps none. The includer includes lib/hit.glsl, radiance/face_table.glsl,
 // radiance/kept_light.glsl and radiance/plane.glsl before; params has states, too, and STATES_BINDING is defined.
+#ifndef ZVO_SHADERS_RADIANCE_LIGHT_OF_NEIGHBORS_GLSL
+#define ZVO_SHADERS_RADIANCE_LIGHT_OF_NEIGHBORS_GLSL
 
 // The mean light of the faces that touch a face in its plane, up to four, as far as they keep any. Their light was not
 // behind a wall, since the voxel over each was empty when it arrived. is_lit: whether any keeps light.
@@ -19,3 +21,5 @@ vec3 lightOfNeighbors(uvec3 cell, uint normal, out bool is_lit)
     is_lit = sum.w != 0.0;
     return sum.rgb / max(sum.w, 1.0);
 }
+
+#endif

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Lists the bricks that get light in a frame. The includer includes radiance/insert_face.glsl and path/lists.glsl
 // before; params has states, bricks and batch, too.
+#ifndef ZVO_SHADERS_RADIANCE_LIST_BRICK_GLSL
+#define ZVO_SHADERS_RADIANCE_LIST_BRICK_GLSL
 
 // Puts a brick into the table and into the list of its level, unless it is there. cell: in it, of the level below. All
 // threads of a subgroup call this together.
@@ -19,3 +21,5 @@ void listBrick(uvec3 cell, uint normal, uint level, bool exists)
         params.states.data[slot].recent = element;
     }
 }
+
+#endif

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The plane of a face, in which faces with the same normal lie side by side.
+#ifndef ZVO_SHADERS_RADIANCE_PLANE_GLSL
+#define ZVO_SHADERS_RADIANCE_PLANE_GLSL
 
 // A step to another face of the plane, along its two axes in the order x, y, z.
 ivec3 stepInPlane(uint normal, ivec2 steps)
@@ -27,3 +29,5 @@ NearFace nearFace(uint k, uint normal, vec3 offset, int towards)
     vec2 share = vec2(far.x ? across.x : 1.0 - across.x, far.y ? across.y : 1.0 - across.y);
     return NearFace(stepInPlane(normal, ivec2(far.x ? side.x : 0, far.y ? side.y : 0)), share.x * share.y);
 }
+
+#endif

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 // The ranks of faces (radiance.h). The includer includes radiance/radiance.h, lib/sobol.glsl and
 // radiance/kept_light.glsl before.
+#ifndef ZVO_SHADERS_RADIANCE_RANK_GLSL
+#define ZVO_SHADERS_RADIANCE_RANK_GLSL
 
 const float kSeenShare = 8.0;   // a face that the camera sees is taken so much more often than others
 const float kFreshShare = 64.0; // one without samples, than one with as many or more
@@ -14,3 +16,5 @@ uint rankOfFace(KeptFace face, uint mark, uint frame)
     precise float place = (float(random) + 0.5) / (8388608.0 * share);
     return clamp(floatBitsToUint(place) >> kRankShift, kRankFirst, kRankFirst + kFaceRanks - 1u) - kRankFirst;
 }
+
+#endif

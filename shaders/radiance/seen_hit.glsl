@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Hits of the camera's rays. The includer includes radiance/radiance.h and radiance/hit_loads.glsl before; params has
 // starts, width and height, too.
+#ifndef ZVO_SHADERS_RADIANCE_SEEN_HIT_GLSL
+#define ZVO_SHADERS_RADIANCE_SEEN_HIT_GLSL
 
 // The hit of a pixel; those of dead tiles are misses.
 Hit seenHit(uvec2 pixel)
@@ -12,3 +14,5 @@ Hit seenHit(uvec2 pixel)
     hit.index = live ? hit.index : kHitMiss;
     return hit;
 }
+
+#endif

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Sums of what the camera sees. The includer includes path/path.h before.
+#ifndef ZVO_SHADERS_RADIANCE_SEEN_SUM_GLSL
+#define ZVO_SHADERS_RADIANCE_SEEN_SUM_GLSL
 
 void setRadiance(PixelSum_Ptr sums, uint pixel, vec3 radiance)
 {
@@ -18,3 +20,5 @@ void addRadiance(PixelSum_Ptr sums, uint pixel, vec3 radiance)
     words.data[2u * pixel] = packUint2x32(floatBitsToUint(red_green + radiance.rg));
     words.data[2u * pixel + 1u] = packUint2x32(floatBitsToUint(vec2(blue.x + radiance.b, blue.y)));
 }
+
+#endif

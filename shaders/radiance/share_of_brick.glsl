@@ -8,6 +8,8 @@
 // brick: with the luminance l of a sample, m of the face before it, and b of the brick, the mean of (l - b)^2 is s + t,
 // and that of (m - b) (l - b) is t, since the errors of m and l are independent. Where a wall stands in a brick that is
 // bright on one side, t is large, and no light comes through.
+#ifndef ZVO_SHADERS_RADIANCE_SHARE_OF_BRICK_GLSL
+#define ZVO_SHADERS_RADIANCE_SHARE_OF_BRICK_GLSL
 
 // What samples tell of both: the mean of (l - b)^2, and that of (m - b) (l - b).
 struct BrickSpread
@@ -58,3 +60,5 @@ float shareOfBrick(float samples, float brick_samples)
     precise float share = brick_samples / max(samples + brick_samples, 1.0);
     return max(share - kLeast, 0.0) / (1.0 - kLeast);
 }
+
+#endif

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Lists faces that rays have hit, once. The includer includes radiance/insert_face.glsl and path/lists.glsl before;
 // params has states and wanted, too.
+#ifndef ZVO_SHADERS_RADIANCE_WANT_FACE_GLSL
+#define ZVO_SHADERS_RADIANCE_WANT_FACE_GLSL
 
 // Adds a face to a list, kWantedEven or kWantedOdd, unless it is listed. bits: kFaceSeen or 0. All threads of a
 // subgroup call this together.
@@ -24,3 +26,5 @@ uint wantedList(uint frame)
 {
     return kWantedEven + (frame & 1u);
 }
+
+#endif

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Children of candidates (svdag/svdag.h). The includer defines before:
 //   LISTS_CONSTANT_ID    constant_id of kEntriesPerWord
+#ifndef ZVO_SHADERS_SVDAG_CANDIDATE_GLSL
+#define ZVO_SHADERS_SVDAG_CANDIDATE_GLSL
+
 #include "lib/lists.glsl"
 
 layout(constant_id = LISTS_CONSTANT_ID) const uint kEntriesPerWord = 0u; // of candidates' lists; 0: there are none
@@ -47,3 +50,5 @@ uvec4 loadFour(uint_ConstPtr from, uvec4 indices)
 {
     return uvec4(from.data[indices.x], from.data[indices.y], from.data[indices.z], from.data[indices.w]);
 }
+
+#endif

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Hashes of nodes' contents. They never decide equality.
+#ifndef ZVO_SHADERS_SVDAG_CLASS_HASH_GLSL
+#define ZVO_SHADERS_SVDAG_CLASS_HASH_GLSL
 
 // A bijection in which every bit of the input changes half of the output's (C. Wellons, Prospecting for Hash Functions,
 // 2018: lowbias32).
@@ -16,3 +18,5 @@ uint hashMask(uint mask_lo, uint mask_hi)
 {
     return mixBits(mask_lo ^ mixBits(mask_hi + 0x9E3779B9u));
 }
+
+#endif

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Which of the kScanItems candidates of a thread, in workgroups of kScanGroup, are unique: the first of their class.
 // The includer includes svdag/candidate.glsl before.
+#ifndef ZVO_SHADERS_SVDAG_UNIQUE_GLSL
+#define ZVO_SHADERS_SVDAG_UNIQUE_GLSL
 
 struct UniqueCandidates
 {
@@ -29,3 +31,5 @@ UniqueCandidates uniqueCandidates(uint_ConstPtr classes, Node_ConstPtr nodes, ui
         }
     return unique;
 }
+
+#endif

@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Rays through any tree by its table, and what they hit: a part of host/trace.glsl, which says how it is used.
+#ifndef ZVO_SHADERS_TRACE_ANY_TREE_GLSL
+#define ZVO_SHADERS_TRACE_ANY_TREE_GLSL
+
 #include "lib/attribute_formats.glsl"
 #include "lib/camera.glsl"
 #include "lib/color.glsl"
@@ -283,3 +286,5 @@ float zvo_depth(mat4 view_projection, vec3 position)
     vec4 clip = view_projection * vec4(position, 1.0);
     return clip.z / clip.w;
 }
+
+#endif

@@ -20,6 +20,8 @@
 // The includer includes shared/svdag.h, shared/trace.h and lib/morton.glsl before, declares the constants kNodeLevels,
 // kEntriesPerWord and kIterationsMax (after as many iterations, children of any size count as small), and defines:
 //   uvec2 loadHalf(uint half_index), uint loadEntry(uint index, uint per_word)    as for lib/traverse.glsl
+#ifndef ZVO_SHADERS_TRACE_BEAM_START_GLSL
+#define ZVO_SHADERS_TRACE_BEAM_START_GLSL
 
 #include "lib/unit_space.glsl"
 
@@ -165,3 +167,5 @@ float beamStart(Beam beam, uint mirror)
     }
     return start;
 }
+
+#endif

@@ -5,6 +5,8 @@
 // Overlays (update/update.h) may stand above the DAG. Their nodes have attributes of their own, and so have the voxels
 // in their leaves, whose numbers the traversal has found already. What hangs below a list begins with the rank of the
 // node that the overlay's is a copy of.
+#ifndef ZVO_SHADERS_TRACE_HIT_RANK_GLSL
+#define ZVO_SHADERS_TRACE_HIT_RANK_GLSL
 
 // The number in its block of the cell, at some level, that contains a cell of a lower one.
 uint cellAt(uvec3 cell, uint cell_level, uint level)
@@ -40,3 +42,5 @@ uint attributeIndex(RankSource source, BeforeChild_ConstPtr overlay_ranks, uint 
     uint node = in_overlay ? at.node + attribute_offset : at.rank;
     return level == kNodeLevels ? voxel : node;
 }
+
+#endif

@@ -3,6 +3,9 @@
 // another round. If the includer defines PRIMARY_RANKS, hits in a DAG get the ranks that are the indices of their
 // attributes (D. Dolonius, E. Sintorn, V. Kaempe, U. Assarsson, Compressing Color Data for Voxelized Surface Geometry,
 // 2017, who sum up during the traversal; here only the path of the hit is summed up).
+#ifndef ZVO_SHADERS_TRACE_PRIMARY_GLSL
+#define ZVO_SHADERS_TRACE_PRIMARY_GLSL
+
 #include "trace/node_paths.h"
 #include "lib/camera.glsl"
 #include "lib/dispatch.glsl"
@@ -119,3 +122,5 @@ void main()
         params.iterations.data[i] = result.iterations + (kResume ? params.iterations.data[i] : 0u);
 #endif
 }
+
+#endif

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 // The surface at a hit, without its emission. The includer includes trace/trace.h, lib/attribute_formats.glsl,
 // lib/color.glsl, lib/hit.glsl and lib/surface_normal.glsl before, and declares kNodeLevels and kFormat.
+#ifndef ZVO_SHADERS_TRACE_SURFACE_GLSL
+#define ZVO_SHADERS_TRACE_SURFACE_GLSL
 
 const vec3 kPlainAlbedo = vec3(0.6); // without attributes
 
@@ -25,3 +27,5 @@ Surface surfaceAt(Hit hit, vec3 direction, Attribute_ConstPtr attributes, Attrib
     }
     return surface;
 }
+
+#endif

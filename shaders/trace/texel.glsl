@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Pixels in the formats in which pictures store them (kTexelRgba8 and so on). The includer includes trace/light.h and
 // lib/color.glsl before.
+#ifndef ZVO_SHADERS_TRACE_TEXEL_GLSL
+#define ZVO_SHADERS_TRACE_TEXEL_GLSL
 
 // The largest code of red, green and blue.
 float texelSteps(uint texels)
@@ -41,3 +43,5 @@ void storeTexel(uint texels, uint_Ptr image, uint pixel, vec3 color)
     else
         image.data[pixel] = packCodes(texels, color);
 }
+
+#endif

@@ -2,6 +2,8 @@
 // The children of a touched node of an overlay. The includer has a kernel's parameters as params, lib/bricks.glsl and
 // lib/ranks.glsl, and defines
 //   kAttributes, kRanks
+#ifndef ZVO_SHADERS_UPDATE_EXPAND_GLSL
+#define ZVO_SHADERS_UPDATE_EXPAND_GLSL
 
 uvec2 childKey(uvec2 key, uint cell)
 {
@@ -85,3 +87,5 @@ uint expandChild(uint entry, uint cell, bool dag_leaves, out uint child)
     params.nodes.data[child] = merged;
     return count;
 }
+
+#endif

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Sizes what follows a level of an overlay. The includer has a kernel's parameters as params, and
 // lib/dispatch_args.glsl.
+#ifndef ZVO_SHADERS_UPDATE_NEXT_LEVEL_GLSL
+#define ZVO_SHADERS_UPDATE_NEXT_LEVEL_GLSL
 
 // Sizes the level below one, or the leaves' voxels, from the number of its children, which may have wrapped around at
 // 2^32: nothing if they find no room. By one thread. Returns whether they do.
@@ -37,3 +39,5 @@ bool sizeNextLevel(uint level, OverlayLevel span, uint children, bool wrapped)
     args.data[kArgsAssign] = foldedArgs(block_count, max_groups_x);
     return fits;
 }
+
+#endif

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Functions that the kernels over big triangles share.
+#ifndef ZVO_SHADERS_VOXELIZE_BIG_TRIANGLE_GLSL
+#define ZVO_SHADERS_VOXELIZE_BIG_TRIANGLE_GLSL
 
 // RowBlock::position of a block in a column and a row of blocks: row | column << 16.
 uint packBlock(uvec2 block)
@@ -72,3 +74,5 @@ ivec2 wholeColumns(vec2 interval)
     bool empty = !(interval.x <= interval.y);
     return empty ? ivec2(0, -1) : ivec2(floor(interval.x), ceil(interval.y));
 }
+
+#endif

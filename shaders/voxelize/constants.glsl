@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Specialization constants of the raster kernels.
+#ifndef ZVO_SHADERS_VOXELIZE_CONSTANTS_GLSL
+#define ZVO_SHADERS_VOXELIZE_CONSTANTS_GLSL
+
 #include "voxelize/voxelize.h"
 
 layout(constant_id = 0) const uint kCoverage = 0u;
@@ -22,3 +25,5 @@ uint bandGroups(uint band_count)
 {
     return (band_count + kGroupBands - 1u) / kGroupBands;
 }
+
+#endif

@@ -3,6 +3,8 @@
 //
 // With kMixed, coverage tells voxels that several fragments share from the others, and sums are kept of those alone:
 // the attribute of a voxel with one fragment is written at once. It is the same as the one that sums would give.
+#ifndef ZVO_SHADERS_VOXELIZE_FRAGMENT_GLSL
+#define ZVO_SHADERS_VOXELIZE_FRAGMENT_GLSL
 
 layout(constant_id = 7) const bool kMixed = false;
 
@@ -163,3 +165,5 @@ void emitFragment(RasterTriangle triangle, Surface surface, EDGE_IVEC3 corners, 
         }
     }
 }
+
+#endif

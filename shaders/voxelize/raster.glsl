@@ -11,6 +11,8 @@
 // columns above a leaf stay together.
 //
 // Component i of an EDGE_IVEC3 belongs to the edge from corner i to corner i + 1.
+#ifndef ZVO_SHADERS_VOXELIZE_RASTER_GLSL
+#define ZVO_SHADERS_VOXELIZE_RASTER_GLSL
 
 // A triangle set up for its grid.
 struct RasterTriangle
@@ -292,3 +294,5 @@ EDGE_IVEC3 cornerWeights(RasterTriangle t, RasterCell cell)
     EDGE_IVEC3 corners = (cell.uv - edgeSupport(t.edge_u, t.edge_v)).yzx;
     return t.exchanged ? corners.xzy : corners;
 }
+
+#endif

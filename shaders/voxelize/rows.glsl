@@ -2,6 +2,9 @@
 // Rasterizes big triangles in 64-bit integers, one thread for each row of at most kBlockColumns columns, or for tiles
 // of the same block, which take 32 bits. Columns outside of the triangle's outline in the (u, v) projection are left
 // out, so the work follows the rows that it really crosses.
+#ifndef ZVO_SHADERS_VOXELIZE_ROWS_GLSL
+#define ZVO_SHADERS_VOXELIZE_ROWS_GLSL
+
 #include "voxelize/constants.glsl"
 #define EDGE_INT int64_t
 #define EDGE_IVEC3 i64vec3
@@ -130,3 +133,5 @@ void main()
     else if (corner.y + lane >= t.low.y && corner.y + lane <= t.high.y)
         rasterizeRow(t, surface, ivec2(max(corner.x, t.low.x), corner.y + lane), column_last);
 }
+
+#endif

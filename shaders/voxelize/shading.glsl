@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The attributes of a fragment, in integers (docs/voxelization.md).
+#ifndef ZVO_SHADERS_VOXELIZE_SHADING_GLSL
+#define ZVO_SHADERS_VOXELIZE_SHADING_GLSL
 
 // Texture coordinates of the three vertices of a triangle, 16.16.
 struct TriangleUvs
@@ -185,3 +187,5 @@ uvec3 fragmentEmission(Surface surface, uvec3 weights)
     }
     return emission;
 }
+
+#endif

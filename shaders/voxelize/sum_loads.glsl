@@ -2,6 +2,9 @@
 // Loads of sums for the kernels that resolve them. The includer has a kernel's parameters as params, with sums and
 // max_fragments, and defines before:
 //   SUMS_BINDING    the binding of sums in the kernel's bound form (lib/bound.glsl)
+#ifndef ZVO_SHADERS_VOXELIZE_SUM_LOADS_GLSL
+#define ZVO_SHADERS_VOXELIZE_SUM_LOADS_GLSL
+
 #ifdef BOUND
 TEXELS_4(SUMS_BINDING, sums);
 
@@ -24,3 +27,5 @@ void noteFragments(VoxelSums sums)
     if ((sums.fragments >> params.sum_shift) > kFragmentsMax)
         atomicMax(params.max_fragments.data[0], sums.fragments);
 }
+
+#endif

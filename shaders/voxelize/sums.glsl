@@ -4,6 +4,8 @@
 // INT64_ATOMICS: two words of VoxelSums are added as one 64-bit number. No word carries into the next: their values are
 // not negative, and sums of kFragmentsMax of them fit. In sums of more the count of fragments is right nevertheless, by
 // which the host sees that they do not fit.
+#ifndef ZVO_SHADERS_VOXELIZE_SUMS_GLSL
+#define ZVO_SHADERS_VOXELIZE_SUMS_GLSL
 
 // SUM_PAIR, SUM_WORD: a pair of words, or a word, of the sums of a voxel.
 #ifdef BOUND
@@ -50,3 +52,5 @@ void addToSums(uint voxel, VoxelSums sums)
     atomicAdd(SUM_WORD(voxel, 6u), 1u);
 #endif
 }
+
+#endif

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Loads the data of a triangle that its fragments need.
+#ifndef ZVO_SHADERS_VOXELIZE_SURFACE_GLSL
+#define ZVO_SHADERS_VOXELIZE_SURFACE_GLSL
 
 TriangleUvs loadUvs(uint first, uvec3 vertices)
 {
@@ -59,3 +61,5 @@ Surface loadSurface(Draw draw, uvec3 vertices, vec3 normal, float corner_area)
     }
     return surface;
 }
+
+#endif

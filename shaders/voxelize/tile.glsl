@@ -8,6 +8,8 @@
 // vw and wu by 9 edge components: for edges of up to kTileExtent = 2^26 that is less than 2^30. So a quotient that
 // begins outside of [-2^30, 2^30) keeps its sign in the tile, also when it begins at the end of that interval instead,
 // and no quotient leaves 32 bits. Triangles of larger edges have tiles of one column, in which nothing moves.
+#ifndef ZVO_SHADERS_VOXELIZE_TILE_GLSL
+#define ZVO_SHADERS_VOXELIZE_TILE_GLSL
 
 const uint kTileLeaves = 3u; // 7 layers
 
@@ -130,3 +132,5 @@ void setTile(RasterTriangle t, Tile tile)
             setVoxels(cursor, word & 1u, wordOfMasks(tile, word));
     }
 }
+
+#endif

@@ -2,6 +2,9 @@
 // Snaps every triangle to the lattice. Small ones are rasterized here, one thread each, in 32-bit integers; big ones
 // are listed in bands of rows for voxelize/bands and voxelize/rows. (After Schwarz and Seidel 2010; coverage:
 // docs/voxelization.md.)
+#ifndef ZVO_SHADERS_VOXELIZE_TRIANGLES_GLSL
+#define ZVO_SHADERS_VOXELIZE_TRIANGLES_GLSL
+
 #include "voxelize/constants.glsl"
 #define EDGE_INT int
 #define EDGE_IVEC3 ivec3
@@ -249,3 +252,5 @@ void main()
     if (kMode == kModeCoverage && is_group)
         sizeBands(group_count);
 }
+
+#endif

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Snaps a draw's triangle to the lattice. Every operation here is a single rounded addition or product, so that the
 // result is the same on every device.
+#ifndef ZVO_SHADERS_VOXELIZE_VERTEX_GLSL
+#define ZVO_SHADERS_VOXELIZE_VERTEX_GLSL
+
 #include "lib/finite.glsl"
 
 // The exponent of a float: its lowest bit, its bits from there on, and what stands for 2^0.
@@ -83,3 +86,5 @@ vec3 worldNormal(Draw draw, vec3 n)
     world = world + by_z;
     return world;
 }
+
+#endif

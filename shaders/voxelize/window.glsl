@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: MIT
 // The part of the grid that is voxelized: a cube of it, or the whole grid.
+#ifndef ZVO_SHADERS_VOXELIZE_WINDOW_GLSL
+#define ZVO_SHADERS_VOXELIZE_WINDOW_GLSL
+
 #include "voxelize/window.h"
 
 int gridDepth()
@@ -20,3 +23,5 @@ void clipToWindow(inout ivec3 low, inout ivec3 high)
     low = max(low, first);
     high = min(high, first + ((1 << depth) - 1));
 }
+
+#endif
