@@ -9,7 +9,9 @@
 #extension GL_GOOGLE_include_directive : require
 #include "attributes/attributes.h"
 #include "attributes/scales.glsl"
+#include "lib/attribute_formats.glsl"
 #include "lib/dispatch.glsl"
+#include "lib/normal_code.glsl"
 
 layout(local_size_x = kPackGroup) in;
 layout(push_constant, scalar) uniform Push

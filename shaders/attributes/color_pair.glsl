@@ -5,6 +5,7 @@
 
 #include "attributes/color.glsl"
 #include "lib/attribute_formats.glsl"
+#include "shared/attribute_formats.h"
 
 const uvec3 kChannelMax = uvec3((1u << kRedBits) - 1u, (1u << kGreenBits) - 1u, (1u << kBlueBits) - 1u);
 

@@ -6,8 +6,8 @@
 #extension GL_GOOGLE_include_directive : require
 #include "attributes/attributes.h"
 #include "attributes/color.glsl"
-#include "lib/attribute_formats.glsl"
 #include "lib/dispatch.glsl"
+#include "lib/normal_code.glsl"
 
 layout(local_size_x = kPackGroup) in;
 layout(push_constant, scalar) uniform Push

@@ -4,6 +4,7 @@
 #define ZVO_SHADERS_ATTRIBUTES_SCALES_GLSL
 
 #include "lib/attribute_formats.glsl"
+#include "shared/attribute_formats.h"
 
 const uint kStep = 65u;                      // from one end to the next
 const int kOne = kNormalEnd * int(kStep);    // 1 in coordinates and vectors

@@ -4,7 +4,6 @@
 #define ZVO_SHADERS_BASELINE_CRASSIN_GREEN_GLSL
 
 #include "baseline/crassin_green.h"
-#include "lib/dispatch.glsl"
 
 layout(local_size_x = kCrassinGreenGroup) in;
 layout(push_constant, scalar) uniform Push

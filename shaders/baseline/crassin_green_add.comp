@@ -4,7 +4,9 @@
 // need no loops and do not depend on the order of fragments.
 #extension GL_GOOGLE_include_directive : require
 #include "baseline/crassin_green.glsl"
-#include "lib/resolve.glsl"
+#include "lib/attribute.glsl"
+#include "lib/dispatch.glsl"
+#include "lib/normal_code.glsl"
 
 #define SUM_WORD(VOXEL, WORD) uint_Ptr(uint64_t(params.sums) + uint64_t(VOXEL) * kVoxelSumsBytes).data[WORD]
 

@@ -3,6 +3,7 @@
 // Gives each flagged node of a level a tile, by an atomic counter: so the order of tiles depends on that of threads.
 #extension GL_GOOGLE_include_directive : require
 #include "baseline/crassin_green.glsl"
+#include "lib/dispatch.glsl"
 
 void main()
 {

@@ -3,6 +3,7 @@
 // Empties the nodes of a level that have been allocated.
 #extension GL_GOOGLE_include_directive : require
 #include "baseline/crassin_green.glsl"
+#include "lib/dispatch.glsl"
 
 void main()
 {

@@ -3,6 +3,7 @@
 // Flags the nodes of a level that contain fragments: a thread a fragment goes down from the root.
 #extension GL_GOOGLE_include_directive : require
 #include "baseline/crassin_green.glsl"
+#include "lib/dispatch.glsl"
 
 void main()
 {

@@ -4,6 +4,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "baseline/crassin_green.glsl"
 #include "baseline/mean.glsl"
+#include "lib/dispatch.glsl"
 
 void main()
 {

@@ -3,6 +3,7 @@
 // Sizes the passes over the next level, whose nodes are those that have been allocated last.
 #extension GL_GOOGLE_include_directive : require
 #include "baseline/crassin_green.glsl"
+#include "lib/dispatch.glsl"
 #include "lib/dispatch_args.glsl"
 
 void main()

@@ -3,6 +3,7 @@
 // Makes voxels of sums: the mean of the fragments. Cells of a tile without fragments stay empty.
 #extension GL_GOOGLE_include_directive : require
 #include "baseline/crassin_green.glsl"
+#include "lib/dispatch.glsl"
 #include "lib/resolve.glsl"
 
 void main()

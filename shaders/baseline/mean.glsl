@@ -3,6 +3,8 @@
 #ifndef ZVO_SHADERS_BASELINE_MEAN_GLSL
 #define ZVO_SHADERS_BASELINE_MEAN_GLSL
 
+#include "baseline/pointer_octree.h"
+#include "lib/divide.glsl"
 #include "lib/normal_code.glsl"
 
 struct MeanSums

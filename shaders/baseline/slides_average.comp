@@ -6,14 +6,15 @@
 #include "baseline/slides.h"
 #include "lib/bound.glsl"
 #include "lib/dispatch.glsl"
-#define COLOR_BINDING 0
-#include "lib/resolve.glsl"
 
 layout(local_size_x = kSlidesGroup) in;
 layout(push_constant, scalar) uniform Push
 {
     SlidesAverageParams params;
 };
+
+#define COLOR_BINDING 0
+#include "lib/resolve.glsl"
 
 void addFragment(inout VoxelSums sums, SlidesFragment fragment)
 {

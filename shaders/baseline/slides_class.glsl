@@ -3,6 +3,8 @@
 #ifndef ZVO_SHADERS_BASELINE_SLIDES_CLASS_GLSL
 #define ZVO_SHADERS_BASELINE_SLIDES_CLASS_GLSL
 
+#include "baseline/slides.h"
+
 layout(local_size_x = kSlidesGroup) in;
 layout(push_constant, scalar) uniform Push
 {

@@ -2,9 +2,8 @@
 // SPDX-License-Identifier: MIT
 // Gives each candidate the number of the node that its class became.
 #extension GL_GOOGLE_include_directive : require
-#include "baseline/slides.h"
-#include "lib/dispatch.glsl"
 #include "baseline/slides_class.glsl"
+#include "lib/dispatch.glsl"
 
 void main()
 {

@@ -2,10 +2,9 @@
 // SPDX-License-Identifier: MIT
 // Counts classes by their first candidates.
 #extension GL_GOOGLE_include_directive : require
-#include "baseline/slides.h"
-#include "lib/dispatch.glsl"
-#include "baseline/slides_leaders.glsl"
 #include "baseline/slides_class.glsl"
+#include "baseline/slides_leaders.glsl"
+#include "lib/dispatch.glsl"
 
 void main()
 {

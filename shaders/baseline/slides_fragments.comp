@@ -5,8 +5,6 @@
 #extension GL_GOOGLE_include_directive : require
 #include "baseline/slides.h"
 #include "lib/bound.glsl"
-#define COLOR_BINDING 15
-#include "lib/attribute.glsl"
 #include "lib/dispatch.glsl"
 #include "lib/morton.glsl"
 
@@ -27,14 +25,14 @@ layout(push_constant, scalar) uniform Push
     SlidesFragmentsParams params;
 };
 
+#define COLOR_BINDING 15
 #define EDGE_INT int64_t
 #define EDGE_IVEC3 i64vec3
 #define EDGE_WIDE
+#include "baseline/slides_triangle.glsl"
 #include "voxelize/loads.glsl"
 #include "voxelize/shading.glsl"
-#include "voxelize/vertex.glsl"
 #include "voxelize/surface.glsl"
-#include "baseline/slides_triangle.glsl"
 
 SlidesFragment packFragment(uvec3 color, ivec3 normal)
 {

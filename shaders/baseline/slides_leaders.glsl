@@ -5,6 +5,8 @@
 #define ZVO_SHADERS_BASELINE_SLIDES_LEADERS_GLSL
 
 #define SCAN_GROUP kSlidesGroup
+#include "baseline/slides.h"
+#include "lib/dispatch.glsl"
 #include "lib/scan.glsl"
 
 // Codes of a thread's consecutive elements, each with the one before.

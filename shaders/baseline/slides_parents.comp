@@ -4,8 +4,8 @@
 // that is the nodes; of a DAG, the candidates of which equal ones are merged.
 #extension GL_GOOGLE_include_directive : require
 #include "baseline/slides.h"
-#include "lib/dispatch.glsl"
 #include "baseline/slides_leaders.glsl"
+#include "lib/dispatch.glsl"
 
 layout(constant_id = 0) const uint kNodeWords = kSlidesSumNodeWords;
 layout(constant_id = 1) const bool kLeaves = false; // the cells are voxels

@@ -3,8 +3,8 @@
 // Counts the parents of the cells of a level.
 #extension GL_GOOGLE_include_directive : require
 #include "baseline/slides.h"
-#include "lib/dispatch.glsl"
 #include "baseline/slides_leaders.glsl"
+#include "lib/dispatch.glsl"
 
 layout(local_size_x = kSlidesGroup) in;
 layout(push_constant, scalar) uniform Push

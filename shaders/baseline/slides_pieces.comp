@@ -4,8 +4,6 @@
 #extension GL_GOOGLE_include_directive : require
 #include "baseline/slides.h"
 #include "lib/bound.glsl"
-#define COLOR_BINDING 15
-#include "lib/attribute.glsl"
 #include "lib/dispatch.glsl"
 
 layout(constant_id = 0) const uint kCoverage = kCoverageConservative;
@@ -20,9 +18,9 @@ layout(push_constant, scalar) uniform Push
     SlidesPiecesParams params;
 };
 
-#include "voxelize/loads.glsl"
-#include "voxelize/vertex.glsl"
+#define COLOR_BINDING 15
 #include "baseline/slides_triangle.glsl"
+#include "voxelize/loads.glsl"
 
 void countDropped(uint fate)
 {

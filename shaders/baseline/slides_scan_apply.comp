@@ -3,8 +3,8 @@
 // Replaces each value by the sum of those before it: the scanned sum of the blocks before, and of those in its block.
 #extension GL_GOOGLE_include_directive : require
 #include "baseline/slides.h"
-#include "lib/dispatch.glsl"
 #define SCAN_GROUP kSlidesGroup
+#include "lib/dispatch.glsl"
 #include "lib/scan.glsl"
 
 layout(local_size_x = kSlidesGroup) in;

@@ -3,8 +3,8 @@
 // Sums up each block of kSlidesBlock values.
 #extension GL_GOOGLE_include_directive : require
 #include "baseline/slides.h"
-#include "lib/dispatch.glsl"
 #define SCAN_GROUP kSlidesGroup
+#include "lib/dispatch.glsl"
 #include "lib/scan.glsl"
 
 layout(local_size_x = kSlidesGroup) in;

@@ -3,6 +3,9 @@
 #ifndef ZVO_SHADERS_BASELINE_SLIDES_TRAVERSE_GLSL
 #define ZVO_SHADERS_BASELINE_SLIDES_TRAVERSE_GLSL
 
+#include "baseline/slides.h"
+#include "lib/bound.glsl"
+
 // Of a node that is being visited; the bits of the child that the ray is in, or one of these.
 const uint kNotBegun = 8u;
 const uint kDone = 9u;

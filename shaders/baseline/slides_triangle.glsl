@@ -13,6 +13,10 @@
 #ifndef ZVO_SHADERS_BASELINE_SLIDES_TRIANGLE_GLSL
 #define ZVO_SHADERS_BASELINE_SLIDES_TRIANGLE_GLSL
 
+#include "baseline/slides.h"
+#include "lib/finite.glsl"
+#include "voxelize/vertex.glsl"
+
 // Edge functions in a projection, of the edges from each corner to the next: a x + b y + c for the voxel at (x, y), with
 // the coverage's support added. A voxel is inside where all are not negative.
 struct SlidesEdges

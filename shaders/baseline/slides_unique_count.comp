@@ -4,8 +4,8 @@
 // the highest one in which the voxel before it is not.
 #extension GL_GOOGLE_include_directive : require
 #include "baseline/slides.h"
-#include "lib/dispatch.glsl"
 #include "baseline/slides_leaders.glsl"
+#include "lib/dispatch.glsl"
 
 layout(local_size_x = kSlidesGroup) in;
 layout(push_constant, scalar) uniform Push

@@ -4,6 +4,9 @@
 #ifndef ZVO_SHADERS_BASELINE_THESIS_CELLS_GLSL
 #define ZVO_SHADERS_BASELINE_THESIS_CELLS_GLSL
 
+#include "baseline/pointer_octree.h"
+#include "shared/octree.h"
+
 layout(constant_id = 0) const bool kVoxels = false; // the children are voxels
 
 // Whether something is at a child of the level below, which lies between the first and the last that is occupied.

@@ -4,13 +4,14 @@
 #extension GL_GOOGLE_include_directive : require
 #include "baseline/thesis.h"
 #include "lib/dispatch.glsl"
-#include "lib/resolve.glsl"
 
 layout(local_size_x = kThesisGroup) in;
 layout(push_constant, scalar) uniform Push
 {
     ThesisResolveParams params;
 };
+
+#include "lib/resolve.glsl"
 
 void main()
 {

@@ -6,6 +6,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "baseline/thesis.h"
 #include "lib/dispatch.glsl"
+#include "lib/finite.glsl"
 
 layout(constant_id = 0) const uint kCoverage = kCoverageConservative;
 
@@ -19,7 +20,9 @@ layout(push_constant, scalar) uniform Push
 
 #include "baseline/thesis_triangle.glsl"
 #include "voxelize/loads.glsl"
+#include "voxelize/raster.glsl"
 #include "voxelize/vertex.glsl"
+#include "voxelize/window.glsl"
 
 // What a triangle outside of the grid, or none at all, leaves behind.
 ThesisTriangle noTriangle()

@@ -10,7 +10,6 @@
 // tile and a mask of the children that are still to be visited.
 #extension GL_GOOGLE_include_directive : require
 #include "baseline/thesis.h"
-#include "trace/trace.h"
 #include "lib/camera.glsl"
 #include "lib/dispatch.glsl"
 #include "lib/hit.glsl"

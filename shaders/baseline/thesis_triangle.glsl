@@ -6,7 +6,7 @@
 #define EDGE_WIDE
 #define EDGE_INT int64_t
 #define EDGE_IVEC3 i64vec3
-#include "voxelize/window.glsl"
+#include "baseline/thesis.h"
 #include "voxelize/raster.glsl"
 
 ThesisTriangle packTriangle(RasterTriangle t, i64vec3 normal, uint draw, uint triangle)

@@ -6,6 +6,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "baseline/thesis.h"
 #include "lib/dispatch.glsl"
+#include "lib/morton.glsl"
 
 layout(constant_id = 0) const uint kCoverage = kCoverageConservative;
 layout(constant_id = 1) const uint kMaterialClass = kClassPlain;
@@ -23,13 +24,13 @@ layout(push_constant, scalar) uniform Push
 };
 
 #include "baseline/thesis_triangle.glsl"
-#include "lib/morton.glsl"
 #include "lib/resolve.glsl"
 #include "voxelize/loads.glsl"
+#include "voxelize/raster.glsl"
 #include "voxelize/shading.glsl"
-#include "voxelize/vertex.glsl"
-#include "voxelize/surface.glsl"
 #include "voxelize/sums.glsl"
+#include "voxelize/surface.glsl"
+#include "voxelize/window.glsl"
 
 void store(uvec3 voxel, uint code, uvec3 color, ivec3 normal)
 {

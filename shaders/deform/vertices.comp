@@ -3,6 +3,7 @@
 // Morph targets and linear blend skinning, one vertex a thread, by the rule of docs/deformation.md. deformVertices()
 // (core/scene/deform.cpp) gives the same bits.
 #extension GL_GOOGLE_include_directive : require
+#include "deform/deform.h"
 #include "deform/exact.glsl"
 #include "lib/dispatch.glsl"
 

@@ -4,6 +4,8 @@
 #ifndef ZVO_SHADERS_DENOISE_ALBEDO_GLSL
 #define ZVO_SHADERS_DENOISE_ALBEDO_GLSL
 
+#include "denoise/denoise.h"
+
 bool isDark(vec3 albedo)
 {
     return max(max(albedo.r, albedo.g), albedo.b) < kDarkest;

@@ -3,20 +3,18 @@
 // Divides the light of each pixel by its albedo, and makes its guide.
 #extension GL_GOOGLE_include_directive : require
 #include "denoise/denoise.h"
-#include "lib/camera.glsl"
+#include "denoise/albedo.glsl"
+#include "denoise/guide.glsl"
 #include "lib/dispatch.glsl"
 #include "lib/luminance.glsl"
 #include "path/features.glsl"
 #include "path/strip.glsl"
-#include "denoise/guide.glsl"
 
 layout(local_size_x = kPathGroup) in;
 layout(push_constant, scalar) uniform Push
 {
     DenoiseDemodulateParams params;
 };
-
-#include "denoise/albedo.glsl"
 
 void main()
 {

@@ -3,10 +3,9 @@
 // One level of the filter: 5x5 pixels that are params.step pixels apart.
 #extension GL_GOOGLE_include_directive : require
 #include "denoise/denoise.h"
-#include "lib/camera.glsl"
+#include "denoise/guide.glsl"
 #include "lib/dispatch.glsl"
 #include "lib/luminance.glsl"
-#include "denoise/guide.glsl"
 
 layout(constant_id = 0) const bool kOrthographic = false;
 

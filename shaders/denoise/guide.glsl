@@ -4,6 +4,9 @@
 #ifndef ZVO_SHADERS_DENOISE_GUIDE_GLSL
 #define ZVO_SHADERS_DENOISE_GUIDE_GLSL
 
+#include "denoise/denoise.h"
+#include "lib/camera.glsl"
+
 /// What a pixel shows.
 struct Guide
 {

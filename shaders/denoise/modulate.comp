@@ -4,13 +4,12 @@
 // like it: it is dimmed to the brightest of them, the less the more samples it has.
 #extension GL_GOOGLE_include_directive : require
 #include "denoise/denoise.h"
-#include "lib/camera.glsl"
+#include "denoise/albedo.glsl"
+#include "denoise/guide.glsl"
 #include "lib/dispatch.glsl"
 #include "lib/luminance.glsl"
 #include "path/features.glsl"
 #include "path/strip.glsl"
-#include "denoise/albedo.glsl"
-#include "denoise/guide.glsl"
 
 layout(local_size_x = kPathGroup) in;
 layout(push_constant, scalar) uniform Push

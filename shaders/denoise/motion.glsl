@@ -3,6 +3,8 @@
 #ifndef ZVO_SHADERS_DENOISE_MOTION_GLSL
 #define ZVO_SHADERS_DENOISE_MOTION_GLSL
 
+#include "shared/trace.h"
+
 // Coordinates in pixels, whole numbers at the pixels' centres, of a place from the camera's origin; far outside if it
 // is behind the camera.
 vec2 pixelOfPlace(vec3 place, uvec2 size, bool orthographic, CameraRays camera)

@@ -3,9 +3,9 @@
 // Adds the light of an earlier picture where it shows the same place.
 #extension GL_GOOGLE_include_directive : require
 #include "denoise/denoise.h"
-#include "lib/camera.glsl"
-#include "lib/dispatch.glsl"
 #include "denoise/guide.glsl"
+#include "denoise/motion.glsl"
+#include "lib/dispatch.glsl"
 
 layout(constant_id = 0) const bool kOrthographic = false;
 layout(constant_id = 1) const bool kOldOrthographic = false;
@@ -15,8 +15,6 @@ layout(push_constant, scalar) uniform Push
 {
     DenoiseReprojectParams params;
 };
-
-#include "denoise/motion.glsl"
 
 void main()
 {

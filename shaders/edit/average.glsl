@@ -3,6 +3,7 @@
 #ifndef ZVO_SHADERS_EDIT_AVERAGE_GLSL
 #define ZVO_SHADERS_EDIT_AVERAGE_GLSL
 
+#include "edit/edit.h"
 #include "lib/average.glsl"
 
 // Averages the node of a cell that has changed. children_offset: from a cell's first child to children. Call in uniform

@@ -16,6 +16,7 @@ layout(push_constant, scalar) uniform Push
 
 #define AVERAGE_CHILDREN Attribute_Ptr
 #include "edit/average.glsl"
+#include "lib/average.glsl"
 
 void main()
 {

@@ -11,13 +11,13 @@
 layout(constant_id = 0) const uint kEntriesPerWord = 0u; // of the lists of a DAG; 0: the static tree is an octree
 layout(constant_id = 1) const bool kAttributes = false;
 
-#include "lib/ranks.glsl"
-
 layout(local_size_x = kNodesGroup) in;
 layout(push_constant, scalar) uniform Push
 {
     EditFindParams params;
 };
+
+#include "lib/ranks.glsl"
 
 const bool kRanks = kEntriesPerWord != 0u && kAttributes;
 

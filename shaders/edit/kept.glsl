@@ -3,10 +3,8 @@
 #ifndef ZVO_SHADERS_EDIT_KEPT_GLSL
 #define ZVO_SHADERS_EDIT_KEPT_GLSL
 
-#include "edit/compact.h"
-#include "lib/dispatch.glsl"
 #define SCAN_GROUP kScanGroup
-#include "lib/scan.glsl"
+#include "edit/compact.h"
 
 layout(constant_id = 0) const bool kVoxels = false;
 

@@ -13,13 +13,13 @@ layout(constant_id = 0) const uint kEntriesPerWord = 0u; // of the lists of a DA
 layout(constant_id = 1) const bool kAttributes = false;
 layout(constant_id = 2) const bool kEmits = false;
 
-#include "lib/ranks.glsl"
-
 layout(local_size_x = kEditGroup) in;
 layout(push_constant, scalar) uniform Push
 {
     EditNodesParams params;
 };
+
+#include "lib/ranks.glsl"
 
 const bool kRanks = kEntriesPerWord != 0u && kAttributes;
 

@@ -3,6 +3,8 @@
 // Counts the kept elements before each element.
 #extension GL_GOOGLE_include_directive : require
 #include "edit/kept.glsl"
+#include "lib/dispatch.glsl"
+#include "lib/scan.glsl"
 
 void main()
 {

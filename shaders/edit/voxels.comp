@@ -3,7 +3,8 @@
 // Writes the attributes of the voxels of changed leaves: as before the dab, or as the brush asks.
 #extension GL_GOOGLE_include_directive : require
 #include "edit/voxels.glsl"
-#include "lib/attribute.glsl"
+#include "edit/cells.glsl"
+#include "lib/normal_code.glsl"
 
 layout(constant_id = 0) const bool kEmits = false;
 

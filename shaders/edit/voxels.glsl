@@ -4,6 +4,7 @@
 #define ZVO_SHADERS_EDIT_VOXELS_GLSL
 
 #include "edit/cells.glsl"
+#include "edit/edit.h"
 #include "lib/dispatch.glsl"
 #include "lib/morton.glsl"
 #include "lib/node.glsl"

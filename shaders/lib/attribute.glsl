@@ -3,7 +3,7 @@
 #ifndef ZVO_SHADERS_LIB_ATTRIBUTE_GLSL
 #define ZVO_SHADERS_LIB_ATTRIBUTE_GLSL
 
-#include "lib/normal_code.glsl"
+#include "lib/bound.glsl"
 #include "shared/scene.h"
 
 // COLOR_BINDING (optional): the first of two bindings for the tables of colours in a kernel's bound form

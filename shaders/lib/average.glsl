@@ -11,6 +11,11 @@
 #define ZVO_SHADERS_LIB_AVERAGE_GLSL
 
 #include "lib/attribute.glsl"
+#include "lib/bound.glsl"
+#include "lib/divide.glsl"
+#include "lib/normal_code.glsl"
+#include "shared/octree.h"
+#include "shared/scene.h"
 
 const uint kChildrenAtOnce = 4u; // that a lane loads before it looks at them
 const uint kSumWords = 7u;

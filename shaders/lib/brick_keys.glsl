@@ -1,14 +1,11 @@
 // SPDX-License-Identifier: MIT
-// Keys of the brick table (shared/bricks.h). The includer defines before:
-//   BRICKS_CONSTANT_ID    constant_id of kWideKeys
+// Keys of the brick table (shared/bricks.h).
+// Needs the constant kWideKeys: the octree has more than kNarrowLevelsMax levels.
 #ifndef ZVO_SHADERS_LIB_BRICK_KEYS_GLSL
 #define ZVO_SHADERS_LIB_BRICK_KEYS_GLSL
 
 #include "lib/morton.glsl"
 #include "shared/bricks.h"
-
-// The octree has more than kNarrowLevelsMax levels.
-layout(constant_id = BRICKS_CONSTANT_ID) const bool kWideKeys = false;
 
 // The key of a cell among the 4^levels cells of its level. Narrow keys are in x, with y = 0.
 uvec2 brickKey(uvec3 cell, uint levels)

@@ -5,6 +5,7 @@
 #ifndef ZVO_SHADERS_LIB_BRICK_LOADS_GLSL
 #define ZVO_SHADERS_LIB_BRICK_LOADS_GLSL
 
+#include "lib/bound.glsl"
 #include "shared/bricks.h"
 
 #if defined(BOUND) && defined(BRICKS_BINDING)

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Lock-free find and insert in the brick table (shared/bricks.h). Linear probing; entries are never removed.
 // The includer has a kernel's parameters as params, with bricks and brick_mask, and defines before:
-//   BRICKS_CONSTANT_ID    as lib/brick_keys.glsl says
 //   BRICKS_BINDING        optional: the first of two bindings for the table in the kernel's bound form (lib/bound.glsl)
 //
 // Why wide keys need neither 64-bit atomics nor waiting. An insert takes an entry's two words in order: it writes its
@@ -14,8 +13,10 @@
 #ifndef ZVO_SHADERS_LIB_BRICKS_GLSL
 #define ZVO_SHADERS_LIB_BRICKS_GLSL
 
+#include "lib/bound.glsl"
 #include "lib/brick_keys.glsl"
 #include "lib/brick_loads.glsl"
+#include "shared/bricks.h"
 
 const uint kNoEntry = ~0u;
 

@@ -3,6 +3,8 @@
 #ifndef ZVO_SHADERS_LIB_EMISSION_GLSL
 #define ZVO_SHADERS_LIB_EMISSION_GLSL
 
+#include "shared/gpu.h"
+
 // Where the value of an emissive voxel stands.
 uint emissionIndex(uvec2_ConstPtr words, uint voxel)
 {

@@ -7,6 +7,9 @@
 
 #extension GL_KHR_shader_subgroup_arithmetic : require
 #extension GL_KHR_shader_subgroup_ballot : require
+#include "lib/brick_loads.glsl"
+#include "lib/dispatch.glsl"
+#include "octree/octree.h"
 
 struct FoundBricks
 {

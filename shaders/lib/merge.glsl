@@ -3,8 +3,10 @@
 #ifndef ZVO_SHADERS_LIB_MERGE_GLSL
 #define ZVO_SHADERS_LIB_MERGE_GLSL
 
+#include "lib/dispatch.glsl"
 #include "lib/emission.glsl"
 #include "lib/node.glsl"
+#include "update/update.h"
 
 layout(constant_id = 0) const uint kMerge = kMergeAverage;
 layout(constant_id = 1) const bool kEmits = false;

@@ -7,7 +7,9 @@
 #ifndef ZVO_SHADERS_LIB_RANKS_GLSL
 #define ZVO_SHADERS_LIB_RANKS_GLSL
 
-#include "lib/lists.glsl"
+#include "lib/bound.glsl"
+#include "lib/node.glsl"
+#include "shared/svdag.h"
 
 // A node of the octree by its path.
 struct RankedNode

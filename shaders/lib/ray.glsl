@@ -4,6 +4,7 @@
 #define ZVO_SHADERS_LIB_RAY_GLSL
 
 #include "lib/finite.glsl"
+#include "shared/trace.h"
 
 const float kDirectionMin = 1e-20; // smaller components of a direction count as this
 

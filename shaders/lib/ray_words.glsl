@@ -4,6 +4,8 @@
 #ifndef ZVO_SHADERS_LIB_RAY_WORDS_GLSL
 #define ZVO_SHADERS_LIB_RAY_WORDS_GLSL
 
+#include "shared/trace.h"
+
 Ray loadRay(Ray_ConstPtr rays, uint i)
 {
     uint64_t_ConstPtr words = uint64_t_ConstPtr(uint64_t(rays));

@@ -4,6 +4,9 @@
 #define ZVO_SHADERS_LIB_RESOLVE_GLSL
 
 #include "lib/attribute.glsl"
+#include "lib/divide.glsl"
+#include "lib/normal_code.glsl"
+#include "voxelize/voxelize.h"
 
 // The sum of the fragments' normals.
 ivec3 normalSum(VoxelSums sums, uint sum_shift)

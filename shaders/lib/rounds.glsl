@@ -3,6 +3,8 @@
 #ifndef ZVO_SHADERS_LIB_ROUNDS_GLSL
 #define ZVO_SHADERS_LIB_ROUNDS_GLSL
 
+#include "trace/trace.h"
+
 // Schedules the next round over the same workgroups (numbered by lib/dispatch.glsl). If there is none, counts the ray
 // as capped.
 void endUnfinished(bool more, DispatchArgs_Ptr next_round, uint groups, TraceStatus_Ptr status)

@@ -3,6 +3,10 @@
 #ifndef ZVO_SHADERS_LIB_SURFACE_NORMAL_GLSL
 #define ZVO_SHADERS_LIB_SURFACE_NORMAL_GLSL
 
+#include "lib/normal_code.glsl"
+#include "shared/octree.h"
+#include "shared/trace.h"
+
 // Normal of the face that the ray came in through; against the ray when it started inside.
 vec3 faceNormal(uint face, vec3 direction)
 {

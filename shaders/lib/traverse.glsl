@@ -35,9 +35,14 @@
 #ifndef ZVO_SHADERS_LIB_TRAVERSE_GLSL
 #define ZVO_SHADERS_LIB_TRAVERSE_GLSL
 
+#define TRAVERSE_CONSTANT_ID 0
+#include "lib/half_node.glsl"
+#include "lib/unit_space.glsl"
+#include "shared/svdag.h"
+#include "shared/trace.h"
+
 #ifndef TRAVERSE_VARIABLES
 #ifndef TRAVERSE_CONSTANT_ID
-#define TRAVERSE_CONSTANT_ID 0
 #endif
 
 layout(constant_id = TRAVERSE_CONSTANT_ID) const uint kNodeLevels = 5u; // of the octree
@@ -46,7 +51,6 @@ layout(constant_id = TRAVERSE_CONSTANT_ID + 2) const uint kIterationsMax = kTrac
 layout(constant_id = TRAVERSE_CONSTANT_ID + 3) const uint kEntriesPerWord = 0u; // of lists; 0: there are none
 #endif
 
-#include "lib/unit_space.glsl"
 
 #ifdef TRAVERSE_VARIABLES
 #define kLeafShift (kMantissaBits - 2u * kNodeLevels) // a variable makes no constant

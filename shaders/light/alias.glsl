@@ -4,6 +4,8 @@
 #ifndef ZVO_SHADERS_LIGHT_ALIAS_GLSL
 #define ZVO_SHADERS_LIGHT_ALIAS_GLSL
 
+#include "light/environment.h"
+
 // The weight in steps of cell i of a normal.
 uint weightOf(uint normal, uint i)
 {

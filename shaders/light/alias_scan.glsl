@@ -3,6 +3,9 @@
 #ifndef ZVO_SHADERS_LIGHT_ALIAS_SCAN_GLSL
 #define ZVO_SHADERS_LIGHT_ALIAS_SCAN_GLSL
 
+#include "light/alias.glsl"
+#include "light/environment.h"
+
 shared AliasSums s_sums[kAliasGroup];
 
 // The sums of the threads before this one; total: of all threads. Call in uniform control flow.

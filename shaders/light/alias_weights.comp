@@ -4,8 +4,8 @@
 #extension GL_GOOGLE_include_directive : require
 #include "light/environment.h"
 #include "lib/dispatch.glsl"
-#include "light/map.glsl"
 #include "lib/luminance.glsl"
+#include "light/map.glsl"
 
 layout(constant_id = 0) const bool kEvenly = false; // by solid angle alone
 

@@ -3,6 +3,8 @@
 #ifndef ZVO_SHADERS_LIGHT_BOUNDS_GLSL
 #define ZVO_SHADERS_LIGHT_BOUNDS_GLSL
 
+#include "light/light_tree.h"
+
 const uint kLightPartMax = (1u << kLightPartBits) - 1u;
 
 uvec2 packLightCell(uvec3 cell)

@@ -5,8 +5,11 @@
 #include "light/light_tree.h"
 #include "lib/color.glsl"
 #include "lib/dispatch.glsl"
+#include "lib/emission.glsl"
+#include "lib/luminance.glsl"
 #include "lib/morton.glsl"
 #include "lib/node.glsl"
+#include "light/bounds.glsl"
 
 layout(constant_id = 0) const uint kNodeLevels = 5u;
 layout(constant_id = 1) const uint kEntriesPerWord = 0u; // of the lists of a DAG; 0: the tree is an octree
@@ -18,8 +21,6 @@ layout(push_constant, scalar) uniform Push
 };
 
 #include "light/item.glsl"
-#include "lib/luminance.glsl"
-#include "light/bounds.glsl"
 
 shared uint s_emissive[2];
 shared uint s_exposed[2u * kLightFaces];

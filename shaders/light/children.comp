@@ -16,6 +16,7 @@ layout(push_constant, scalar) uniform Push
     LightChildrenParams params;
 };
 
+#include "lib/ranks.glsl"
 #include "light/item.glsl"
 
 void main()

@@ -6,7 +6,10 @@
 #ifndef ZVO_SHADERS_LIGHT_CHOOSE_GLSL
 #define ZVO_SHADERS_LIGHT_CHOOSE_GLSL
 
+#include "lib/morton.glsl"
+#include "lib/node.glsl"
 #include "light/importance.glsl"
+#include "light/light_tree.h"
 
 // A chosen face of an emissive voxel.
 struct ChosenLight

@@ -4,8 +4,9 @@
 #ifndef ZVO_SHADERS_LIGHT_ENVIRONMENT_GLSL
 #define ZVO_SHADERS_LIGHT_ENVIRONMENT_GLSL
 
-#include "light/map_radiance.glsl"
 #include "lib/frame.glsl"
+#include "light/map.glsl"
+#include "light/outside.h"
 
 // Probability by solid angle of directions in a cell that is chosen with some probability. y: of its upper and lower
 // edge.

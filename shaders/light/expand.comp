@@ -4,6 +4,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "light/light_tree.h"
 #include "lib/dispatch.glsl"
+#include "lib/emission.glsl"
 #include "lib/node.glsl"
 
 layout(constant_id = 0) const uint kNodeLevels = 5u;
@@ -16,6 +17,7 @@ layout(push_constant, scalar) uniform Push
     LightExpandParams params;
 };
 
+#include "lib/ranks.glsl"
 #include "light/item.glsl"
 
 shared uint s_masks[2];

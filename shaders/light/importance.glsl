@@ -6,6 +6,7 @@
 #define ZVO_SHADERS_LIGHT_IMPORTANCE_GLSL
 
 #include "light/bounds.glsl"
+#include "light/light_tree.h"
 
 // A point of a surface with a normal along an axis.
 struct LitPlace

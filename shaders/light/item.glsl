@@ -4,8 +4,9 @@
 #ifndef ZVO_SHADERS_LIGHT_ITEM_GLSL
 #define ZVO_SHADERS_LIGHT_ITEM_GLSL
 
-#include "lib/emission.glsl"
+#include "lib/node.glsl"
 #include "lib/ranks.glsl"
+#include "shared/tree_table.h"
 
 const bool kRanked = kEntriesPerWord != 0u; // voxels and nodes of a DAG have attributes by ranks
 

@@ -4,6 +4,7 @@
 #define ZVO_SHADERS_LIGHT_MAP_RADIANCE_GLSL
 
 #include "light/map.glsl"
+#include "light/outside.h"
 
 // Radiance of the map from a direction (length 1).
 vec3 mapRadiance(Environment_ConstPtr environment, vec3 direction)

@@ -3,8 +3,8 @@
 // Numbers the children of a level's nodes, by one workgroup that walks over the nodes, and sizes the next level.
 #extension GL_GOOGLE_include_directive : require
 #include "light/light_tree.h"
-#include "lib/dispatch_args.glsl"
 #define SCAN_GROUP kLightGroup
+#include "lib/dispatch_args.glsl"
 #include "lib/scan.glsl"
 
 layout(local_size_x = kLightGroup) in;

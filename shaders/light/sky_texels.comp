@@ -4,8 +4,8 @@
 #extension GL_GOOGLE_include_directive : require
 #include "light/environment.h"
 #include "lib/dispatch.glsl"
-#include "light/map.glsl"
 #include "lib/sky.glsl"
+#include "light/map.glsl"
 
 layout(local_size_x = kAliasGroup) in;
 layout(push_constant, scalar) uniform Push

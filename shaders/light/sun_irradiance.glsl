@@ -3,6 +3,8 @@
 #ifndef ZVO_SHADERS_LIGHT_SUN_IRRADIANCE_GLSL
 #define ZVO_SHADERS_LIGHT_SUN_IRRADIANCE_GLSL
 
+#include "light/outside.h"
+
 // The irradiance over pi that comes from the sun's whole disc, above a surface with this normal (length 1).
 vec3 sunIrradiance(Environment_ConstPtr environment, vec3 normal)
 {

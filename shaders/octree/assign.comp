@@ -4,8 +4,8 @@
 // table has room for it, the entry gets the number of the leaf's first voxel.
 #extension GL_GOOGLE_include_directive : require
 #include "octree/octree.h"
-#include "lib/dispatch.glsl"
 #define SCAN_GROUP kAssignGroup
+#include "lib/dispatch.glsl"
 #include "lib/scan.glsl"
 
 layout(local_size_x = kAssignGroup) in;

@@ -4,6 +4,7 @@
 #define ZVO_SHADERS_OCTREE_LEVELS_GLSL
 
 #include "lib/dispatch_args.glsl"
+#include "octree/octree.h"
 
 // Workgroups for one thread a node.
 DispatchArgs nodeArgs(uint node_count, uint max_groups_x)

@@ -3,10 +3,10 @@
 // Numbers the root and its children, in one workgroup, as octree/place and octree/assign do.
 #extension GL_GOOGLE_include_directive : require
 #include "octree/octree.h"
-#define BRICKS_CONSTANT_ID 0
-#include "lib/brick_keys.glsl"
 #define SCAN_GROUP kRootGroup
 #include "lib/scan.glsl"
+
+layout(constant_id = 0) const bool kWideKeys = false; // the octree has more than kNarrowLevelsMax levels
 
 layout(local_size_x = kRootGroup) in;
 layout(push_constant, scalar) uniform Push

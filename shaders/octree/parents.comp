@@ -9,14 +9,17 @@
 #include "lib/dispatch.glsl"
 #include "octree/levels.glsl"
 
+layout(constant_id = 0) const bool kWideKeys = false; // the octree has more than kNarrowLevelsMax levels
+
 layout(local_size_x = kNodesGroup) in;
 layout(push_constant, scalar) uniform Push
 {
     ParentsParams params;
 };
 
-#define BRICKS_CONSTANT_ID 0
 #define BRICKS_BINDING 0
+#include "lib/brick_keys.glsl"
+#include "lib/brick_loads.glsl"
 #include "lib/bricks.glsl"
 
 void addToParent(uint item)

@@ -3,9 +3,9 @@
 // Gives every node of a level below the root its number, and counts the children of each block of kScanBlock nodes.
 #extension GL_GOOGLE_include_directive : require
 #include "octree/octree.h"
-#define BRICKS_CONSTANT_ID 0
-#include "lib/brick_keys.glsl"
 #include "lib/dispatch.glsl"
+
+layout(constant_id = 0) const bool kWideKeys = false; // the octree has more than kNarrowLevelsMax levels
 
 layout(local_size_x = kNodesGroup) in;
 layout(push_constant, scalar) uniform Push

@@ -5,7 +5,10 @@
 #ifndef ZVO_SHADERS_OCTREE_PLACE_GLSL
 #define ZVO_SHADERS_OCTREE_PLACE_GLSL
 
+#include "lib/brick_keys.glsl"
 #include "lib/node.glsl"
+#include "shared/bricks.h"
+#include "shared/octree.h"
 
 // Returns the number.
 uint placeNode(WorkItem item, bool is_root, out uint children)

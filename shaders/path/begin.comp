@@ -3,24 +3,21 @@
 // Starts a path for each pixel of a batch, with a ray from a random point of the lens through one of the pixel.
 #extension GL_GOOGLE_include_directive : require
 #include "path/path.h"
-#include "lib/camera.glsl"
 #include "lib/dispatch.glsl"
 #include "lib/dispatch_args.glsl"
-#include "lib/ray.glsl"
-#include "lib/sobol.glsl"
-#include "path/numbers.glsl"
+#include "lib/ray_words.glsl"
 #include "path/state.glsl"
 #include "path/strip.glsl"
 
 layout(constant_id = 0) const bool kOrthographic = false;
-
-#include "path/camera_ray.glsl"
 
 layout(local_size_x = kPathGroup) in;
 layout(push_constant, scalar) uniform Push
 {
     PathBeginParams params;
 };
+
+#include "path/camera_ray.glsl"
 
 void main()
 {

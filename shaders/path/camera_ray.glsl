@@ -4,6 +4,12 @@
 #ifndef ZVO_SHADERS_PATH_CAMERA_RAY_GLSL
 #define ZVO_SHADERS_PATH_CAMERA_RAY_GLSL
 
+#include "lib/camera.glsl"
+#include "lib/ray.glsl"
+#include "lib/sobol.glsl"
+#include "path/numbers.glsl"
+#include "path/path.h"
+
 // The seed of a pixel's random numbers.
 uint seedOfPixel(PathView view, uvec2 pixel)
 {

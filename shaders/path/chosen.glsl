@@ -3,6 +3,10 @@
 #ifndef ZVO_SHADERS_PATH_CHOSEN_GLSL
 #define ZVO_SHADERS_PATH_CHOSEN_GLSL
 
+#include "path/face.glsl"
+#include "path/path.h"
+#include "path/weights.glsl"
+
 // A light that was chosen for a place on a face.
 struct ChosenDirection
 {

@@ -3,10 +3,9 @@
 // Makes the picture of the mean of all samples.
 #extension GL_GOOGLE_include_directive : require
 #include "path/path.h"
-#include "lib/color.glsl"
 #include "lib/dispatch.glsl"
-#include "trace/texel.glsl"
 #include "path/strip.glsl"
+#include "trace/texel.glsl"
 
 layout(constant_id = 0) const uint kTexels = kTexelRgba8;
 

@@ -5,6 +5,7 @@
 
 #include "lib/color.glsl"
 #include "lib/emission.glsl"
+#include "shared/gpu.h"
 
 // The radiance of an emissive voxel, by the index of its attributes.
 vec3 emissionOf(uint voxel)

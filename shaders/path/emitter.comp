@@ -5,9 +5,8 @@
 #include "path/path.h"
 #include "lib/dispatch.glsl"
 #include "lib/hit.glsl"
-#include "lib/morton.glsl"
-#include "lib/node.glsl"
-#include "path/face.glsl"
+#include "lib/ray_words.glsl"
+#include "path/state.glsl"
 
 layout(constant_id = 0) const uint kSampling = kSampleBoth; // how light is found
 layout(constant_id = 1) const uint kNodeLevels = 5u;
@@ -19,14 +18,10 @@ layout(push_constant, scalar) uniform Push
     PathLightParams params;
 };
 
-#define LIGHT_NODES params.light_nodes
 #define LIGHT_BRICKS params.light_bricks
-#include "light/choose.glsl"
-#include "path/emission.glsl"
-#include "path/lists.glsl"
-#include "path/state.glsl"
-#include "path/weights.glsl"
+#define LIGHT_NODES params.light_nodes
 #include "path/emitter.glsl"
+#include "path/lists.glsl"
 
 void main()
 {

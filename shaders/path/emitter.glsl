@@ -4,6 +4,14 @@
 #ifndef ZVO_SHADERS_PATH_EMITTER_GLSL
 #define ZVO_SHADERS_PATH_EMITTER_GLSL
 
+#include "lib/hit.glsl"
+#include "light/choose.glsl"
+#include "light/importance.glsl"
+#include "path/emission.glsl"
+#include "path/face.glsl"
+#include "path/path.h"
+#include "path/weights.glsl"
+
 // What a ray that has hit an emissive voxel brings to the pixel.
 vec3 lightOfHit(PathState state, Ray ray, Hit hit)
 {

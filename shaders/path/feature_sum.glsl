@@ -4,6 +4,12 @@
 #ifndef ZVO_SHADERS_PATH_FEATURE_SUM_GLSL
 #define ZVO_SHADERS_PATH_FEATURE_SUM_GLSL
 
+#include "lib/hit.glsl"
+#include "lib/surface_normal.glsl"
+#include "path/features.glsl"
+#include "path/path.h"
+#include "trace/surface.glsl"
+
 // Adds what the ray of a sample sees. direct: radiance that it has met.
 void addFeatures(uint pixel, Ray ray, Hit hit, vec3 direct, vec3 origin, vec3 forward)
 {

@@ -3,14 +3,10 @@
 // Adds what the camera's rays see to the features of each pixel of a batch.
 #extension GL_GOOGLE_include_directive : require
 #include "path/path.h"
-#include "lib/attribute_formats.glsl"
-#include "lib/color.glsl"
 #include "lib/dispatch.glsl"
 #include "lib/hit.glsl"
 #include "lib/luminance.glsl"
 #include "lib/ray_words.glsl"
-#include "lib/surface_normal.glsl"
-#include "path/features.glsl"
 
 layout(constant_id = 0) const uint kNodeLevels = 5u;
 layout(constant_id = 1) const uint kFormat = kFormat8; // of attributes
@@ -21,7 +17,6 @@ layout(push_constant, scalar) uniform Push
     PathFeaturesParams params;
 };
 
-#include "trace/surface.glsl"
 #include "path/feature_sum.glsl"
 
 void main()

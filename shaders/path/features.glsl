@@ -3,6 +3,8 @@
 #ifndef ZVO_SHADERS_PATH_FEATURES_GLSL
 #define ZVO_SHADERS_PATH_FEATURES_GLSL
 
+#include "path/path.h"
+
 PixelFeatures loadFeatures(PixelFeatures_ConstPtr features, uint i)
 {
     uint64_t_ConstPtr words = uint64_t_ConstPtr(uint64_t(features));

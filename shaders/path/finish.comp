@@ -4,7 +4,6 @@
 #extension GL_GOOGLE_include_directive : require
 #include "path/path.h"
 #include "lib/dispatch.glsl"
-#include "lib/luminance.glsl"
 #include "path/sum.glsl"
 
 layout(constant_id = 0) const bool kFeatures = false;

@@ -4,6 +4,12 @@
 #ifndef ZVO_SHADERS_PATH_HIT_VOXEL_GLSL
 #define ZVO_SHADERS_PATH_HIT_VOXEL_GLSL
 
+#include "lib/attribute_formats.glsl"
+#include "lib/color.glsl"
+#include "shared/attribute_formats.h"
+#include "shared/trace.h"
+#include "trace/surface.glsl"
+
 // The attribute of a voxel that was hit.
 Attribute attributeAt(bool hits, Hit hit)
 {

@@ -4,6 +4,10 @@
 #ifndef ZVO_SHADERS_PATH_LIST_CHOSEN_GLSL
 #define ZVO_SHADERS_PATH_LIST_CHOSEN_GLSL
 
+#include "path/leave.glsl"
+#include "path/lists.glsl"
+#include "path/path.h"
+
 // set: of lists. All threads of a subgroup call this together.
 void listChosen(NextRay next, uint path, uint set)
 {

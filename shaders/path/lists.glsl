@@ -5,6 +5,7 @@
 
 #extension GL_KHR_shader_subgroup_basic : require
 #extension GL_KHR_shader_subgroup_arithmetic : require
+#include "path/path.h"
 
 uint listLength(uint bounce, uint list)
 {

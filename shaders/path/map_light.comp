@@ -4,11 +4,8 @@
 #extension GL_GOOGLE_include_directive : require
 #include "path/path.h"
 #include "lib/dispatch.glsl"
-#include "lib/ray.glsl"
-#include "lib/sobol.glsl"
-#include "light/environment.glsl"
-#include "path/face.glsl"
-#include "path/numbers.glsl"
+#include "lib/ray_words.glsl"
+#include "path/state.glsl"
 
 layout(constant_id = 0) const uint kSampling = kSampleBoth; // how light is found
 
@@ -19,9 +16,6 @@ layout(push_constant, scalar) uniform Push
 };
 
 #include "path/lists.glsl"
-#include "path/state.glsl"
-#include "path/weights.glsl"
-#include "path/chosen.glsl"
 #include "path/map_light.glsl"
 #include "path/shadow.glsl"
 

@@ -4,6 +4,13 @@
 #ifndef ZVO_SHADERS_PATH_MAP_LIGHT_GLSL
 #define ZVO_SHADERS_PATH_MAP_LIGHT_GLSL
 
+#include "lib/sobol.glsl"
+#include "light/environment.glsl"
+#include "light/map_radiance.glsl"
+#include "path/chosen.glsl"
+#include "path/numbers.glsl"
+#include "path/path.h"
+
 // A direction to the map, or to the sun, for a path that leaves a face.
 ChosenDirection chooseMapLight(PathState state, uint bounce)
 {

@@ -4,7 +4,8 @@
 #extension GL_GOOGLE_include_directive : require
 #include "path/path.h"
 #include "lib/dispatch.glsl"
-#include "light/environment.glsl"
+#include "lib/ray_words.glsl"
+#include "path/state.glsl"
 
 layout(constant_id = 0) const uint kSampling = kSampleBoth; // how light is found
 
@@ -15,8 +16,6 @@ layout(push_constant, scalar) uniform Push
 };
 
 #include "path/lists.glsl"
-#include "path/state.glsl"
-#include "path/weights.glsl"
 #include "path/miss.glsl"
 
 void main()

@@ -4,6 +4,11 @@
 #ifndef ZVO_SHADERS_PATH_MISS_GLSL
 #define ZVO_SHADERS_PATH_MISS_GLSL
 
+#include "light/environment.glsl"
+#include "light/map_radiance.glsl"
+#include "path/path.h"
+#include "path/weights.glsl"
+
 // What a ray that has left the grid brings to the pixel.
 vec3 lightOfMiss(PathState state, Ray ray)
 {

@@ -4,6 +4,14 @@
 #ifndef ZVO_SHADERS_PATH_NEXT_RAY_GLSL
 #define ZVO_SHADERS_PATH_NEXT_RAY_GLSL
 
+#include "lib/hit.glsl"
+#include "lib/sobol.glsl"
+#include "path/face.glsl"
+#include "path/hit_voxel.glsl"
+#include "path/leave.glsl"
+#include "path/numbers.glsl"
+#include "path/path.h"
+
 const float kRouletteMax = 0.95; // probability to go on
 const uint kRouletteFirst = 3u;  // bounce
 

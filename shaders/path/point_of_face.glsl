@@ -3,6 +3,8 @@
 #ifndef ZVO_SHADERS_PATH_POINT_OF_FACE_GLSL
 #define ZVO_SHADERS_PATH_POINT_OF_FACE_GLSL
 
+#include "path/face.glsl"
+
 // A point of a face of a voxel with this edge, by two numbers in [0, 1).
 vec3 pointOfFace(uvec3 cell, uint normal, float edge, vec2 u)
 {

@@ -3,6 +3,9 @@
 #ifndef ZVO_SHADERS_PATH_REACH_GLSL
 #define ZVO_SHADERS_PATH_REACH_GLSL
 
+#include "lib/hit.glsl"
+#include "path/path.h"
+
 // Whether nothing is in the way of a shadow ray that has met this. target: as in ShadowState.
 bool reachesLight(Hit hit, uvec2 target)
 {

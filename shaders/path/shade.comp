@@ -4,18 +4,9 @@
 // for some paths alone is listed.
 #extension GL_GOOGLE_include_directive : require
 #include "path/path.h"
-#include "lib/attribute_formats.glsl"
-#include "lib/color.glsl"
 #include "lib/dispatch.glsl"
-#include "lib/frame.glsl"
 #include "lib/hit.glsl"
-#include "lib/morton.glsl"
-#include "lib/node.glsl"
-#include "lib/ray.glsl"
-#include "lib/sobol.glsl"
-#include "lib/surface_normal.glsl"
-#include "path/face.glsl"
-#include "path/numbers.glsl"
+#include "lib/ray_words.glsl"
 #include "path/state.glsl"
 
 layout(constant_id = 0) const uint kNodeLevels = 5u;
@@ -32,14 +23,12 @@ layout(push_constant, scalar) uniform Push
 };
 
 #define LIGHT_NODES params.light_nodes
-#include "light/importance.glsl"
-#include "path/lists.glsl"
-#include "trace/surface.glsl"
-#include "path/hit_voxel.glsl"
 #include "path/emitting_voxel.glsl"
+#include "path/hit_voxel.glsl"
 #include "path/leave.glsl"
-#include "path/next_ray.glsl"
 #include "path/list_chosen.glsl"
+#include "path/lists.glsl"
+#include "path/next_ray.glsl"
 
 void main()
 {

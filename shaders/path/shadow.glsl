@@ -4,6 +4,12 @@
 #ifndef ZVO_SHADERS_PATH_SHADOW_GLSL
 #define ZVO_SHADERS_PATH_SHADOW_GLSL
 
+#include "lib/ray.glsl"
+#include "lib/ray_words.glsl"
+#include "path/chosen.glsl"
+#include "path/lists.glsl"
+#include "path/path.h"
+
 // Lists a shadow ray, unless it cannot bring light. Threads without a path take part, too.
 void appendShadow(bool exists, vec3 origin, PathState state, ChosenDirection chosen)
 {

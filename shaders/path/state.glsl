@@ -4,7 +4,7 @@
 #ifndef ZVO_SHADERS_PATH_STATE_GLSL
 #define ZVO_SHADERS_PATH_STATE_GLSL
 
-#include "lib/ray_words.glsl"
+#include "path/path.h"
 
 // The state of a path that begins.
 PathState stateOfCamera(uint slot, uint seed)

@@ -3,6 +3,8 @@
 #ifndef ZVO_SHADERS_PATH_STRIP_GLSL
 #define ZVO_SHADERS_PATH_STRIP_GLSL
 
+#include "path/path.h"
+
 uvec2 pixelOfNumber(uint number, uvec2 size)
 {
     uint strip = number / (kStripRows * size.x);

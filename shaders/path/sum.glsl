@@ -3,6 +3,9 @@
 #ifndef ZVO_SHADERS_PATH_SUM_GLSL
 #define ZVO_SHADERS_PATH_SUM_GLSL
 
+#include "lib/luminance.glsl"
+#include "path/path.h"
+
 // Adds a sample of a pixel, of which no other thread has one at the same time.
 void addSample(PixelSum_Ptr sums, uint pixel, vec3 radiance)
 {

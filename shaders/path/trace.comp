@@ -13,21 +13,10 @@
 #extension GL_KHR_shader_subgroup_basic : require
 #extension GL_KHR_shader_subgroup_arithmetic : require
 #include "path/path.h"
-#include "lib/attribute_formats.glsl"
+#define NODES_BINDING 0
 #include "lib/bound.glsl"
-#include "lib/camera.glsl"
 #include "lib/dispatch.glsl"
-#include "lib/hit.glsl"
-#include "lib/luminance.glsl"
-#include "lib/morton.glsl"
-#include "lib/node.glsl"
-#include "lib/ray.glsl"
-#include "lib/sobol.glsl"
-#include "lib/surface_normal.glsl"
-#include "light/environment.glsl"
-#include "path/face.glsl"
-#include "path/features.glsl"
-#include "path/numbers.glsl"
+#include "lib/traverse.glsl"
 #include "path/reach.glsl"
 #include "path/state.glsl"
 #include "path/strip.glsl"
@@ -48,28 +37,17 @@ layout(push_constant, scalar) uniform Push
     PathTraceParams params;
 };
 
-#include "lib/octree_loads.glsl"
-#include "lib/traverse.glsl"
-#include "lib/ranks.glsl"
-#include "trace/hit_rank.glsl"
-#define LIGHT_NODES params.light_nodes
 #define LIGHT_BRICKS params.light_bricks
-#include "light/choose.glsl"
-#include "path/emission.glsl"
-#include "path/weights.glsl"
-#include "trace/surface.glsl"
+#define LIGHT_NODES params.light_nodes
 #include "path/camera_ray.glsl"
-#include "path/chosen.glsl"
 #include "path/emitter.glsl"
-#include "path/feature_sum.glsl"
-#include "path/hit_voxel.glsl"
 #include "path/emitting_voxel.glsl"
-#include "path/leave.glsl"
+#include "path/feature_sum.glsl"
 #include "path/map_light.glsl"
 #include "path/miss.glsl"
 #include "path/next_ray.glsl"
-#include "path/point_of_face.glsl"
 #include "path/voxel_light.glsl"
+#include "trace/hit_rank.glsl"
 
 const bool kRanked = kEntriesPerWord != 0u && kNodeLevels > 1u && kFormat != kFormatNone; // hits have indices by ranks
 

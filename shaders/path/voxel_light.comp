@@ -4,13 +4,8 @@
 #extension GL_GOOGLE_include_directive : require
 #include "path/path.h"
 #include "lib/dispatch.glsl"
-#include "lib/hit.glsl"
-#include "lib/morton.glsl"
-#include "lib/node.glsl"
-#include "lib/ray.glsl"
-#include "lib/sobol.glsl"
-#include "path/face.glsl"
-#include "path/numbers.glsl"
+#include "lib/ray_words.glsl"
+#include "path/state.glsl"
 
 layout(constant_id = 0) const uint kSampling = kSampleBoth; // how light is found
 layout(constant_id = 1) const uint kNodeLevels = 5u;
@@ -22,17 +17,11 @@ layout(push_constant, scalar) uniform Push
     PathLightParams params;
 };
 
-#define LIGHT_NODES params.light_nodes
 #define LIGHT_BRICKS params.light_bricks
-#include "light/choose.glsl"
-#include "path/emission.glsl"
+#define LIGHT_NODES params.light_nodes
 #include "path/lists.glsl"
-#include "path/state.glsl"
-#include "path/weights.glsl"
-#include "path/chosen.glsl"
-#include "path/point_of_face.glsl"
-#include "path/voxel_light.glsl"
 #include "path/shadow.glsl"
+#include "path/voxel_light.glsl"
 
 void main()
 {

@@ -5,6 +5,17 @@
 #ifndef ZVO_SHADERS_PATH_VOXEL_LIGHT_GLSL
 #define ZVO_SHADERS_PATH_VOXEL_LIGHT_GLSL
 
+#include "lib/hit.glsl"
+#include "lib/sobol.glsl"
+#include "light/choose.glsl"
+#include "light/importance.glsl"
+#include "path/chosen.glsl"
+#include "path/emission.glsl"
+#include "path/face.glsl"
+#include "path/numbers.glsl"
+#include "path/path.h"
+#include "path/point_of_face.glsl"
+
 // A point of a face of an emissive voxel, for a path that leaves a face at origin.
 ChosenDirection chooseVoxelLight(PathState state, vec3 origin, uint bounce)
 {

@@ -3,6 +3,8 @@
 #ifndef ZVO_SHADERS_PATH_WEIGHTS_GLSL
 #define ZVO_SHADERS_PATH_WEIGHTS_GLSL
 
+#include "path/path.h"
+
 // The weight of light that was found in one way, by the densities of this and the other way.
 float balance(float own, float other)
 {

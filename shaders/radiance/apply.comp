@@ -6,7 +6,6 @@
 #include "radiance/radiance.h"
 #include "lib/bound.glsl"
 #include "lib/dispatch.glsl"
-#include "lib/hit.glsl"
 #include "lib/luminance.glsl"
 #include "lib/sobol.glsl"
 
@@ -19,14 +18,12 @@ layout(push_constant, scalar) uniform Push
 #define FACES_BINDING 0
 #define STATES_BINDING 1
 #include "path/lists.glsl"
+#include "radiance/between_faces.glsl"
+#include "radiance/brick_spread.glsl"
+#include "radiance/brick_sum.glsl"
 #include "radiance/face_key.glsl"
 #include "radiance/face_table.glsl"
-#include "radiance/kept_light.glsl"
-#include "radiance/plane.glsl"
-#include "radiance/between_faces.glsl"
-#include "radiance/brick_sum.glsl"
 #include "radiance/share_of_brick.glsl"
-#include "radiance/brick_spread.glsl"
 
 // The mark of a face whose path has hit what its number tells.
 uint markAfter(uint mark, uint number)

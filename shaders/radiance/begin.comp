@@ -5,14 +5,9 @@
 #include "radiance/radiance.h"
 #include "lib/bound.glsl"
 #include "lib/dispatch.glsl"
-#include "lib/frame.glsl"
-#include "lib/hit.glsl"
-#include "lib/morton.glsl"
-#include "lib/node.glsl"
-#include "lib/ray.glsl"
-#include "lib/sobol.glsl"
-#include "path/face.glsl"
+#include "lib/ray_words.glsl"
 #include "path/numbers.glsl"
+#include "path/point_of_face.glsl"
 #include "path/state.glsl"
 
 layout(constant_id = 0) const uint kNodeLevels = 5u;
@@ -25,17 +20,12 @@ layout(push_constant, scalar) uniform Push
 };
 
 #define FACES_BINDING 0
-#define STATES_BINDING 1
 #define LIGHT_NODES params.light_nodes
-#include "light/importance.glsl"
+#define STATES_BINDING 1
 #include "path/leave.glsl"
-#include "path/lists.glsl"
 #include "path/list_chosen.glsl"
-#include "path/point_of_face.glsl"
+#include "path/lists.glsl"
 #include "radiance/face_key.glsl"
-#include "radiance/face_table.glsl"
-#include "radiance/insert_face.glsl"
-#include "radiance/kept_light.glsl"
 #include "radiance/list_brick.glsl"
 
 void main()

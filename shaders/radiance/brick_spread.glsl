@@ -4,6 +4,8 @@
 #ifndef ZVO_SHADERS_RADIANCE_BRICK_SPREAD_GLSL
 #define ZVO_SHADERS_RADIANCE_BRICK_SPREAD_GLSL
 
+#include "radiance/share_of_brick.glsl"
+
 // The total as a float; the other number as one without its last 10 bits, where the number of samples is.
 BrickSpread spreadIn(uvec2 words, out uint samples)
 {

@@ -4,6 +4,8 @@
 #ifndef ZVO_SHADERS_RADIANCE_BRICK_SUM_GLSL
 #define ZVO_SHADERS_RADIANCE_BRICK_SUM_GLSL
 
+#include "radiance/kept_light.glsl"
+
 const float kSumMost = 67108860.0; // steps of a sample, so that 64 fit: 2^26 - 4
 
 // A step of the sums of a brick that keeps a light: between 2^-11 and 2^-12 of its strongest channel, so that samples

@@ -4,6 +4,18 @@
 #ifndef ZVO_SHADERS_RADIANCE_CONE_GLSL
 #define ZVO_SHADERS_RADIANCE_CONE_GLSL
 
+#include "lib/attribute_formats.glsl"
+#include "lib/hit.glsl"
+#include "lib/morton.glsl"
+#include "lib/node.glsl"
+#include "lib/ray.glsl"
+#include "lib/sobol.glsl"
+#include "radiance/face_table.glsl"
+#include "radiance/kept_faces.h"
+#include "radiance/kept_light.glsl"
+#include "shared/trace.h"
+#include "shared/tree_table.h"
+
 const uint kConeSteps = 32u;             // nodes that a cone meets or leaves, at most
 const float kConeStep = 0.01;            // out of a node, in voxels
 const float kConeThrough = 1.0 / 64.0;   // of its light, at which a cone ends

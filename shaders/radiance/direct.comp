@@ -8,6 +8,7 @@
 #include "lib/dispatch.glsl"
 #include "lib/hit.glsl"
 #include "light/environment.glsl"
+#include "light/map_radiance.glsl"
 #include "path/strip.glsl"
 #include "radiance/seen_sum.glsl"
 
@@ -23,7 +24,6 @@ layout(push_constant, scalar) uniform Push
 #define HITS_BINDING 0
 #include "path/emission.glsl"
 #include "path/lists.glsl"
-#include "radiance/hit_loads.glsl"
 #include "radiance/seen_hit.glsl"
 
 // Light from outside of the grid, from a direction (length 1).

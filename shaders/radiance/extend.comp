@@ -3,17 +3,10 @@
 // Takes paths that have hit a face without light: adds what the faces around it reflect, or goes on by one more ray.
 #extension GL_GOOGLE_include_directive : require
 #include "radiance/radiance.h"
-#include "lib/attribute_formats.glsl"
 #include "lib/bound.glsl"
-#include "lib/color.glsl"
 #include "lib/dispatch.glsl"
-#include "lib/frame.glsl"
-#include "lib/hit.glsl"
-#include "lib/ray.glsl"
-#include "lib/sobol.glsl"
-#include "lib/surface_normal.glsl"
+#include "lib/ray_words.glsl"
 #include "path/face.glsl"
-#include "path/numbers.glsl"
 #include "path/state.glsl"
 
 layout(constant_id = 0) const uint kNodeLevels = 5u;
@@ -26,21 +19,15 @@ layout(push_constant, scalar) uniform Push
     RadianceExtendParams params;
 };
 
-#define FACES_BINDING 0
-#define STATES_BINDING 1
 const bool kRoulette = false;
+#define FACES_BINDING 0
 #define LIGHT_NODES params.light_nodes
-#include "light/importance.glsl"
-#include "path/lists.glsl"
-#include "trace/surface.glsl"
+#define STATES_BINDING 1
 #include "path/hit_voxel.glsl"
 #include "path/leave.glsl"
-#include "path/next_ray.glsl"
 #include "path/list_chosen.glsl"
-#include "radiance/face_key.glsl"
-#include "radiance/face_table.glsl"
-#include "radiance/kept_light.glsl"
-#include "radiance/plane.glsl"
+#include "path/lists.glsl"
+#include "path/next_ray.glsl"
 #include "radiance/light_of_neighbors.glsl"
 
 void main()

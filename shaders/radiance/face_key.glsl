@@ -6,6 +6,9 @@
 #ifndef ZVO_SHADERS_RADIANCE_FACE_KEY_GLSL
 #define ZVO_SHADERS_RADIANCE_FACE_KEY_GLSL
 
+#include "lib/bound.glsl"
+#include "radiance/kept_faces.h"
+
 // cell: of the level. normal: its number as in LightBrick::exposed.
 uvec2 faceKey(uvec3 cell, uint normal, uint level)
 {
@@ -50,8 +53,10 @@ KeptFace loadFace(uint slot)
 
 #endif
 
-#if defined(BOUND) && defined(STATES_BINDING)
+#ifdef STATES_BINDING
+#include "radiance/radiance.h"
 
+#ifdef BOUND
 TEXELS_4(STATES_BINDING, states);
 
 FaceState loadFaceState(uint slot)
@@ -59,16 +64,14 @@ FaceState loadFaceState(uint slot)
     uvec4 words = texelFetch(texels4_states, int(slot));
     return FaceState(words.x, words.y, words.zw);
 }
-
-#elif defined(STATES_BINDING)
-
+#else
 FaceState loadFaceState(uint slot)
 {
     uint64_t_ConstPtr words = uint64_t_ConstPtr(uint64_t(params.states));
     uvec2 first = unpackUint2x32(words.data[2u * slot]);
     return FaceState(first.x, first.y, unpackUint2x32(words.data[2u * slot + 1u]));
 }
-
+#endif
 #endif
 
 #endif

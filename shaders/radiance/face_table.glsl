@@ -3,6 +3,9 @@
 #ifndef ZVO_SHADERS_RADIANCE_FACE_TABLE_GLSL
 #define ZVO_SHADERS_RADIANCE_FACE_TABLE_GLSL
 
+#include "radiance/face_key.glsl"
+#include "radiance/kept_faces.h"
+
 const uint kNoFace = ~0u;
 
 // The first slot to look at. The faces of 2x2x2 cells of a level stand side by side.

@@ -5,12 +5,9 @@
 // light of the faces beside it, or none.
 #extension GL_GOOGLE_include_directive : require
 #include "radiance/radiance.h"
-#include "lib/attribute_formats.glsl"
 #include "lib/bound.glsl"
-#include "lib/color.glsl"
 #include "lib/dispatch.glsl"
-#include "lib/hit.glsl"
-#include "lib/surface_normal.glsl"
+#include "lib/ray_words.glsl"
 #include "path/face.glsl"
 #include "path/state.glsl"
 
@@ -24,20 +21,14 @@ layout(push_constant, scalar) uniform Push
     RadianceGatherParams params;
 };
 
+const uint kNodeLevels = 0u; // no hit is a node's
 #define FACES_BINDING 0
 #define HITS_BINDING 2
 #define STATES_BINDING 1
-const uint kNodeLevels = 0u; // no hit is a node's
-#include "trace/surface.glsl"
-#include "path/hit_voxel.glsl"
 #include "path/emitting_voxel.glsl"
-#include "path/lists.glsl"
-#include "radiance/face_key.glsl"
-#include "radiance/face_table.glsl"
+#include "path/hit_voxel.glsl"
 #include "radiance/hit_loads.glsl"
-#include "radiance/kept_light.glsl"
 #include "radiance/insert_face.glsl"
-#include "radiance/plane.glsl"
 #include "radiance/light_of_neighbors.glsl"
 #include "radiance/want_face.glsl"
 

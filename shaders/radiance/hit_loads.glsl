@@ -4,6 +4,10 @@
 #ifndef ZVO_SHADERS_RADIANCE_HIT_LOADS_GLSL
 #define ZVO_SHADERS_RADIANCE_HIT_LOADS_GLSL
 
+#include "lib/bound.glsl"
+#include "lib/hit.glsl"
+#include "shared/trace.h"
+
 #ifdef BOUND
 
 TEXELS_4(HITS_BINDING, hits);

@@ -3,6 +3,10 @@
 #ifndef ZVO_SHADERS_RADIANCE_INSERT_FACE_GLSL
 #define ZVO_SHADERS_RADIANCE_INSERT_FACE_GLSL
 
+#include "radiance/face_key.glsl"
+#include "radiance/face_table.glsl"
+#include "radiance/kept_faces.h"
+
 #define FACE_WORD(SLOT, WORD) uint_Ptr(uint64_t(params.faces) + uint64_t(SLOT) * kKeptFaceBytes).data[WORD]
 
 // The slot of a face, or of a brick, which is taken if it has none; kNoFace if there is no place. Of both words of a

@@ -4,6 +4,10 @@
 #ifndef ZVO_SHADERS_RADIANCE_LIGHT_OF_BRICK_GLSL
 #define ZVO_SHADERS_RADIANCE_LIGHT_OF_BRICK_GLSL
 
+#include "radiance/face_table.glsl"
+#include "radiance/kept_faces.h"
+#include "radiance/kept_light.glsl"
+
 // The light of the faces with a normal in the least brick around a voxel's cell that keeps some. w: 1; 0 where none
 // does, or where none is asked for.
 vec4 lightOfBrick(uvec3 cell, uint normal, bool is_asked)

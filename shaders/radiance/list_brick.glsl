@@ -4,6 +4,11 @@
 #ifndef ZVO_SHADERS_RADIANCE_LIST_BRICK_GLSL
 #define ZVO_SHADERS_RADIANCE_LIST_BRICK_GLSL
 
+#include "path/lists.glsl"
+#include "radiance/face_table.glsl"
+#include "radiance/insert_face.glsl"
+#include "radiance/radiance.h"
+
 // Puts a brick into the table and into the list of its level, unless it is there. cell: in it, of the level below. All
 // threads of a subgroup call this together.
 void listBrick(uvec3 cell, uint normal, uint level, bool exists)

@@ -4,6 +4,10 @@
 #ifndef ZVO_SHADERS_RADIANCE_RANK_GLSL
 #define ZVO_SHADERS_RADIANCE_RANK_GLSL
 
+#include "lib/sobol.glsl"
+#include "radiance/kept_light.glsl"
+#include "radiance/radiance.h"
+
 const float kSeenShare = 8.0;   // a face that the camera sees is taken so much more often than others
 const float kFreshShare = 64.0; // one without samples, than one with as many or more
 

@@ -4,6 +4,9 @@
 #ifndef ZVO_SHADERS_RADIANCE_SEEN_HIT_GLSL
 #define ZVO_SHADERS_RADIANCE_SEEN_HIT_GLSL
 
+#include "radiance/hit_loads.glsl"
+#include "trace/trace.h"
+
 // The hit of a pixel; those of dead tiles are misses.
 Hit seenHit(uvec2 pixel)
 {

@@ -3,6 +3,8 @@
 #ifndef ZVO_SHADERS_RADIANCE_SEEN_SUM_GLSL
 #define ZVO_SHADERS_RADIANCE_SEEN_SUM_GLSL
 
+#include "path/path.h"
+
 void setRadiance(PixelSum_Ptr sums, uint pixel, vec3 radiance)
 {
     uint64_t_Ptr words = uint64_t_Ptr(uint64_t(sums));

@@ -11,6 +11,8 @@
 #ifndef ZVO_SHADERS_RADIANCE_SHARE_OF_BRICK_GLSL
 #define ZVO_SHADERS_RADIANCE_SHARE_OF_BRICK_GLSL
 
+#include "radiance/radiance.h"
+
 // What samples tell of both: the mean of (l - b)^2, and that of (m - b) (l - b).
 struct BrickSpread
 {

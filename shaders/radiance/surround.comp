@@ -14,8 +14,6 @@ layout(push_constant, scalar) uniform Push
 
 #include "path/lists.glsl"
 #include "radiance/face_key.glsl"
-#include "radiance/face_table.glsl"
-#include "radiance/insert_face.glsl"
 #include "radiance/list_brick.glsl"
 
 void main()

@@ -5,7 +5,7 @@
 #include "radiance/radiance.h"
 #include "lib/bound.glsl"
 #include "lib/dispatch.glsl"
-#include "lib/sobol.glsl"
+#include "radiance/rank.glsl"
 
 layout(local_size_x = kRadianceGroup) in;
 layout(push_constant, scalar) uniform Push
@@ -17,8 +17,6 @@ layout(push_constant, scalar) uniform Push
 #define STATES_BINDING 1
 #include "path/lists.glsl"
 #include "radiance/face_key.glsl"
-#include "radiance/kept_light.glsl"
-#include "radiance/rank.glsl"
 
 void main()
 {

@@ -7,7 +7,7 @@
 #include "lib/arrivals.glsl"
 #include "lib/bound.glsl"
 #include "lib/dispatch.glsl"
-#include "lib/sobol.glsl"
+#include "radiance/rank.glsl"
 
 layout(local_size_x = kRadianceGroup) in;
 layout(push_constant, scalar) uniform Push
@@ -19,8 +19,6 @@ layout(push_constant, scalar) uniform Push
 #define STATES_BINDING 1
 #include "path/lists.glsl"
 #include "radiance/face_key.glsl"
-#include "radiance/kept_light.glsl"
-#include "radiance/rank.glsl"
 
 // The least rank such that all faces of it and of those below are more than the budget.
 uint rankLimit()

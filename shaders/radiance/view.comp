@@ -4,13 +4,9 @@
 // see a lamp, or nothing, are listed.
 #extension GL_GOOGLE_include_directive : require
 #include "radiance/radiance.h"
-#include "lib/attribute_formats.glsl"
 #include "lib/bound.glsl"
 #include "lib/camera.glsl"
-#include "lib/color.glsl"
 #include "lib/dispatch.glsl"
-#include "lib/hit.glsl"
-#include "lib/surface_normal.glsl"
 #include "path/face.glsl"
 #include "path/strip.glsl"
 #include "radiance/seen_sum.glsl"
@@ -30,17 +26,11 @@ layout(push_constant, scalar) uniform Push
 
 #define FACES_BINDING 0
 #define HITS_BINDING 1
-#include "trace/surface.glsl"
-#include "path/hit_voxel.glsl"
 #include "path/emitting_voxel.glsl"
+#include "path/hit_voxel.glsl"
 #include "path/lists.glsl"
-#include "radiance/face_key.glsl"
-#include "radiance/face_table.glsl"
-#include "radiance/kept_light.glsl"
-#include "radiance/plane.glsl"
 #include "radiance/between_faces.glsl"
 #include "radiance/light_of_brick.glsl"
-#include "radiance/hit_loads.glsl"
 #include "radiance/seen_hit.glsl"
 
 void main()

@@ -22,8 +22,6 @@ layout(push_constant, scalar) uniform Push
 #define FACES_BINDING 0
 #define HITS_BINDING 2
 #define STATES_BINDING 1
-#include "path/lists.glsl"
-#include "radiance/face_key.glsl"
 #include "radiance/face_table.glsl"
 #include "radiance/hit_loads.glsl"
 #include "radiance/insert_face.glsl"

@@ -4,6 +4,11 @@
 #ifndef ZVO_SHADERS_RADIANCE_WANT_FACE_GLSL
 #define ZVO_SHADERS_RADIANCE_WANT_FACE_GLSL
 
+#include "path/lists.glsl"
+#include "radiance/face_key.glsl"
+#include "radiance/face_table.glsl"
+#include "radiance/radiance.h"
+
 // Adds a face to a list, kWantedEven or kWantedOdd, unless it is listed. bits: kFaceSeen or 0. All threads of a
 // subgroup call this together.
 void wantFace(uint slot, uint bits, uint list)

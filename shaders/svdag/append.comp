@@ -4,7 +4,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "svdag/svdag.h"
 #include "lib/dispatch.glsl"
-#include "lib/lists.glsl"
+#include "lib/node.glsl"
 
 layout(constant_id = 0) const uint kEntriesPerWord = 2u; // of the lists that are copied
 

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: MIT
-// Children of candidates (svdag/svdag.h). The includer defines before:
-//   LISTS_CONSTANT_ID    constant_id of kEntriesPerWord
+// Children of candidates (svdag/svdag.h).
+// Needs the constant kEntriesPerWord, of the candidates' lists.
 #ifndef ZVO_SHADERS_SVDAG_CANDIDATE_GLSL
 #define ZVO_SHADERS_SVDAG_CANDIDATE_GLSL
 
-#include "lib/lists.glsl"
-
-layout(constant_id = LISTS_CONSTANT_ID) const uint kEntriesPerWord = 0u; // of candidates' lists; 0: there are none
+#include "lib/node.glsl"
+#include "shared/svdag.h"
 
 uint childCount(Node node)
 {

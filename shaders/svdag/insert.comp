@@ -6,11 +6,10 @@
 // does not.
 #extension GL_GOOGLE_include_directive : require
 #include "svdag/svdag.h"
-#define LISTS_CONSTANT_ID 0
 #include "lib/dispatch.glsl"
-#include "svdag/candidate.glsl"
 #include "svdag/class_hash.glsl"
 
+layout(constant_id = 0) const uint kEntriesPerWord = 0u; // of candidates' lists; 0: there are none
 layout(constant_id = 1) const bool kLeaves = false; // of the level: equal masks are enough
 
 layout(local_size_x = kSvdagGroup) in;
@@ -18,6 +17,8 @@ layout(push_constant, scalar) uniform Push
 {
     ClassInsertParams params;
 };
+
+#include "svdag/candidate.glsl"
 
 // Compares the children of inner nodes. equal: their masks are equal.
 bool haveEqualChildren(Node a, Node b, bool equal)

@@ -4,10 +4,9 @@
 // from the leaves up, as what is below a node is the sum of what is below its children.
 #extension GL_GOOGLE_include_directive : require
 #include "svdag/svdag.h"
-#define LISTS_CONSTANT_ID 0
 #include "lib/dispatch.glsl"
-#include "svdag/candidate.glsl"
 
+layout(constant_id = 0) const uint kEntriesPerWord = 0u; // of candidates' lists; 0: there are none
 layout(constant_id = 1) const bool kBefore = false;       // there are attributes
 layout(constant_id = 2) const bool kAboveLeaves = false;  // the children are leaves
 layout(constant_id = 3) const uint kPerWord = 2u;         // entries of the lists that are written
@@ -17,6 +16,8 @@ layout(push_constant, scalar) uniform Push
 {
     UniqueListsParams params;
 };
+
+#include "svdag/candidate.glsl"
 
 // Voxels below a node, and nodes, itself included.
 BeforeChild belowOf(uint number)

@@ -3,18 +3,19 @@
 // Numbers the unique nodes in the order of the candidates, and their lists likewise.
 #extension GL_GOOGLE_include_directive : require
 #include "svdag/svdag.h"
-#define LISTS_CONSTANT_ID 0
-#include "lib/dispatch.glsl"
 #define SCAN_GROUP kScanGroup
+#include "lib/dispatch.glsl"
 #include "lib/scan.glsl"
-#include "svdag/candidate.glsl"
-#include "svdag/unique.glsl"
+
+layout(constant_id = 0) const uint kEntriesPerWord = 0u; // of candidates' lists; 0: there are none
 
 layout(local_size_x = kScanGroup) in;
 layout(push_constant, scalar) uniform Push
 {
     ClassNumberParams params;
 };
+
+#include "svdag/unique.glsl"
 
 void main()
 {

@@ -4,6 +4,9 @@
 #ifndef ZVO_SHADERS_SVDAG_UNIQUE_GLSL
 #define ZVO_SHADERS_SVDAG_UNIQUE_GLSL
 
+#include "octree/octree.h"
+#include "svdag/candidate.glsl"
+
 struct UniqueCandidates
 {
     uint nodes;                    // bit i: the candidate with i before it is unique

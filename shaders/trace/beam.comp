@@ -5,11 +5,13 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_KHR_shader_subgroup_ballot : require
 #include "trace/beam.h"
+#define NODES_BINDING 0
 #include "lib/bound.glsl"
 #include "lib/camera.glsl"
 #include "lib/dispatch.glsl"
-#include "lib/morton.glsl"
+#include "lib/half_node.glsl"
 #include "lib/ray.glsl"
+#include "lib/unit_space.glsl"
 
 layout(constant_id = 0) const uint kNodeLevels = 5u;     // of the octree
 layout(constant_id = 1) const uint kEntriesPerWord = 0u; // of lists; 0: there are none
@@ -24,7 +26,6 @@ layout(push_constant, scalar) uniform Push
     BeamParams params;
 };
 
-#include "lib/octree_loads.glsl"
 #include "trace/beam_start.glsl"
 
 const float kTileReach = float(kTileEdge - 1u); // from the middle of a tile to its outer pixels, in half pixels

@@ -23,7 +23,11 @@
 #ifndef ZVO_SHADERS_TRACE_BEAM_START_GLSL
 #define ZVO_SHADERS_TRACE_BEAM_START_GLSL
 
+#include "lib/half_node.glsl"
+#include "lib/morton.glsl"
 #include "lib/unit_space.glsl"
+#include "shared/svdag.h"
+#include "shared/trace.h"
 
 struct Beam // inverse directions may have any sign, but are finite and not 0
 {

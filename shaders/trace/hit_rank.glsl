@@ -8,6 +8,12 @@
 #ifndef ZVO_SHADERS_TRACE_HIT_RANK_GLSL
 #define ZVO_SHADERS_TRACE_HIT_RANK_GLSL
 
+#include "lib/hit.glsl"
+#include "lib/morton.glsl"
+#include "lib/ranks.glsl"
+#include "shared/svdag.h"
+#include "shared/trace.h"
+
 // The number in its block of the cell, at some level, that contains a cell of a lower one.
 uint cellAt(uvec3 cell, uint cell_level, uint level)
 {

@@ -7,10 +7,12 @@
 #include "lib/attribute_formats.glsl"
 #include "lib/camera.glsl"
 #include "lib/dispatch.glsl"
+#include "lib/half_node.glsl"
 #include "lib/hit.glsl"
 #include "lib/morton.glsl"
 #include "lib/node.glsl"
 #include "lib/ray.glsl"
+#include "lib/traverse.glsl"
 
 layout(constant_id = 4) const bool kOrthographic = false;
 layout(constant_id = 5) const uint kFormat = kFormat8; // of attributes; kFormatNone where hits have no index of any
@@ -20,9 +22,6 @@ layout(push_constant, scalar) uniform Push
 {
     InspectParams params;
 };
-
-#include "lib/octree_half.glsl"
-#include "lib/traverse.glsl"
 
 // The node of a cell's level - 1 that it lies in.
 uint nodeAround(uvec3 cell, uint level)

@@ -12,13 +12,13 @@ layout(constant_id = 0) const bool kLeaves = false;      // the nodes of level k
 layout(constant_id = 1) const uint kEntriesPerWord = 2u; // of lists
 layout(constant_id = 2) const bool kOverlays = false;    // the upper nodes may be those of an overlay
 
-#include "lib/ranks.glsl"
-
 layout(local_size_x = kPathsGroup) in;
 layout(push_constant, scalar) uniform Push
 {
     NodeRanksParams params;
 };
+
+#include "lib/ranks.glsl"
 
 void main()
 {

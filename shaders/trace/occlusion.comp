@@ -5,14 +5,14 @@
 // share the iterations that an invocation has; those for which none are left count as open.
 #extension GL_GOOGLE_include_directive : require
 #include "trace/light.h"
-#include "lib/attribute_formats.glsl"
+#define NODES_BINDING 0
 #include "lib/bound.glsl"
 #include "lib/camera.glsl"
 #include "lib/dispatch.glsl"
 #include "lib/frame.glsl"
+#include "lib/half_node.glsl"
 #include "lib/hit.glsl"
 #include "lib/ray.glsl"
-#include "lib/surface_normal.glsl"
 
 layout(constant_id = 4) const bool kOrthographic = false;
 layout(constant_id = 5) const uint kFormat = kFormat8; // of attributes
@@ -26,10 +26,9 @@ layout(push_constant, scalar) uniform Push
     OcclusionParams params;
 };
 
-#include "lib/octree_loads.glsl"
-#include "trace/path_loads.glsl"
-#include "lib/traverse.glsl"
-#include "lib/lit_point.glsl"
+#define PATHS_BINDING 1
+#include "trace/lit_point.glsl"
+#include "trace/traverse_paths.glsl"
 
 const float kGoldenAngle = 2.39996323;
 

@@ -33,9 +33,10 @@ layout(push_constant, scalar) uniform Push
 #ifdef PRIMARY_RANKS
 #define TRAVERSE_ENTRIES
 #endif
-#include "lib/octree_loads.glsl"
-#include "trace/path_loads.glsl"
-#include "lib/traverse.glsl"
+#define NODES_BINDING 0
+#define PATHS_BINDING 1
+#include "lib/half_node.glsl"
+#include "trace/traverse_paths.glsl"
 #include "lib/rounds.glsl"
 
 #ifdef PRIMARY_RANKS

@@ -9,8 +9,6 @@
 #include "lib/camera.glsl"
 #include "lib/dispatch.glsl"
 #include "lib/hit.glsl"
-#include "lib/morton.glsl"
-#include "lib/node.glsl"
 
 layout(constant_id = 0) const uint kNodeLevels = 5u;  // at least 2
 layout(constant_id = 1) const bool kDetail = false;   // hits may be nodes
@@ -19,14 +17,13 @@ layout(constant_id = 3) const uint kEntriesPerWord = 2u; // of lists
 layout(constant_id = 4) const bool kOverlays = false; // the upper nodes may be those of an overlay
 layout(constant_id = 5) const bool kCounted = false;  // the device knows how many hits the list has
 
-#include "lib/ranks.glsl"
-#include "trace/hit_rank.glsl"
-
 layout(local_size_x = kTilePixels) in;
 layout(push_constant, scalar) uniform Push
 {
     RanksParams params;
 };
+
+#include "trace/hit_rank.glsl"
 
 void main()
 {

@@ -3,11 +3,15 @@
 // Traces a list of rays. Those that use up their iterations resume in another round.
 #extension GL_GOOGLE_include_directive : require
 #include "trace/trace.h"
+#define NODES_BINDING 0
 #include "lib/bound.glsl"
 #include "lib/dispatch.glsl"
+#include "lib/half_node.glsl"
 #include "lib/hit.glsl"
 #include "lib/ray.glsl"
 #include "lib/ray_words.glsl"
+#include "lib/rounds.glsl"
+#include "lib/traverse.glsl"
 
 layout(constant_id = 4) const bool kResume = false; // only rays that the round before left unfinished
 layout(constant_id = 5) const bool kMore = false;     // another round follows
@@ -18,10 +22,6 @@ layout(push_constant, scalar) uniform Push
 {
     RaysParams params;
 };
-
-#include "lib/octree_loads.glsl"
-#include "lib/traverse.glsl"
-#include "lib/rounds.glsl"
 
 void main()
 {

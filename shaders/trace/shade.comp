@@ -4,13 +4,11 @@
 // emission. Pixels without a hit keep what trace/sky has written.
 #extension GL_GOOGLE_include_directive : require
 #include "trace/light.h"
-#include "lib/attribute_formats.glsl"
 #include "lib/camera.glsl"
 #include "lib/color.glsl"
 #include "lib/dispatch.glsl"
 #include "lib/hit.glsl"
 #include "lib/sky.glsl"
-#include "lib/surface_normal.glsl"
 #include "trace/texel.glsl"
 
 layout(constant_id = 0) const uint kNodeLevels = 5u;

@@ -4,13 +4,14 @@
 // in another round. Until then, light holds the time of the last event, which is greater than any light.
 #extension GL_GOOGLE_include_directive : require
 #include "trace/light.h"
-#include "lib/attribute_formats.glsl"
+#define NODES_BINDING 0
 #include "lib/bound.glsl"
 #include "lib/camera.glsl"
 #include "lib/dispatch.glsl"
+#include "lib/half_node.glsl"
 #include "lib/hit.glsl"
 #include "lib/ray.glsl"
-#include "lib/surface_normal.glsl"
+#include "lib/rounds.glsl"
 
 layout(constant_id = 4) const bool kOrthographic = false;
 layout(constant_id = 5) const uint kFormat = kFormat8; // of attributes
@@ -25,11 +26,9 @@ layout(push_constant, scalar) uniform Push
     ShadowParams params;
 };
 
-#include "lib/octree_loads.glsl"
-#include "trace/path_loads.glsl"
-#include "lib/traverse.glsl"
-#include "lib/lit_point.glsl"
-#include "lib/rounds.glsl"
+#define PATHS_BINDING 1
+#include "trace/lit_point.glsl"
+#include "trace/traverse_paths.glsl"
 
 const float kLiftSun = 1.0; // voxels
 

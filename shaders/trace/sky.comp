@@ -4,7 +4,6 @@
 #extension GL_GOOGLE_include_directive : require
 #include "trace/light.h"
 #include "lib/camera.glsl"
-#include "lib/color.glsl"
 #include "lib/dispatch.glsl"
 #include "lib/sky.glsl"
 #include "trace/texel.glsl"

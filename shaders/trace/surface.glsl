@@ -4,6 +4,13 @@
 #ifndef ZVO_SHADERS_TRACE_SURFACE_GLSL
 #define ZVO_SHADERS_TRACE_SURFACE_GLSL
 
+#include "lib/attribute_formats.glsl"
+#include "lib/color.glsl"
+#include "lib/hit.glsl"
+#include "lib/surface_normal.glsl"
+#include "shared/attribute_formats.h"
+#include "shared/trace.h"
+
 const vec3 kPlainAlbedo = vec3(0.6); // without attributes
 
 struct Surface

@@ -4,6 +4,9 @@
 #ifndef ZVO_SHADERS_TRACE_TEXEL_GLSL
 #define ZVO_SHADERS_TRACE_TEXEL_GLSL
 
+#include "lib/color.glsl"
+#include "trace/light.h"
+
 // The largest code of red, green and blue.
 float texelSteps(uint texels)
 {

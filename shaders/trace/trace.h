@@ -30,7 +30,7 @@ const float kTileDead = kTraceTimeMax; // a tile's start where no ray of the til
     GPU_CONSTANT(uint, iterations_max, kTraceIterationsMax)                                                            \
     GPU_CONSTANT(uint, entries_per_word, 0u)
 
-// Of every kernel with trace/path_loads.glsl.
+// Of every kernel with trace/traverse_paths.glsl.
 #define PATHS_CONSTANTS                                                                                                \
     GPU_CONSTANT(bool, paths, false)                                                                                   \
     GPU_CONSTANT(bool, paths_relative, false)

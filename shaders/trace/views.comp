@@ -4,12 +4,10 @@
 // without a hit keep what is there, except in the heat map of iterations.
 #extension GL_GOOGLE_include_directive : require
 #include "trace/light.h"
-#include "lib/attribute_formats.glsl"
 #include "lib/camera.glsl"
 #include "lib/color.glsl"
 #include "lib/dispatch.glsl"
 #include "lib/hit.glsl"
-#include "lib/surface_normal.glsl"
 #include "trace/texel.glsl"
 
 layout(constant_id = 0) const uint kView = kViewAlbedo;

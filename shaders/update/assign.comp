@@ -3,8 +3,8 @@
 // Sets the child bases of every touched node of a level from the prefix sum of child counts.
 #extension GL_GOOGLE_include_directive : require
 #include "update/update.h"
-#include "lib/dispatch.glsl"
 #define SCAN_GROUP kScanGroup
+#include "lib/dispatch.glsl"
 #include "lib/scan.glsl"
 
 layout(local_size_x = kScanGroup) in;

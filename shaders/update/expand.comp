@@ -6,15 +6,12 @@
 #include "update/update.h"
 #include "lib/arrivals.glsl"
 #include "lib/dispatch.glsl"
-#include "lib/dispatch_args.glsl"
-#include "lib/node.glsl"
 #extension GL_KHR_shader_subgroup_arithmetic : require
 
+layout(constant_id = 0) const bool kWideKeys = false; // the octree has more than kNarrowLevelsMax levels
 layout(constant_id = 1) const bool kAttributes = false;
 layout(constant_id = 2) const uint kEntriesPerWord = 0u; // of the lists of a DAG, as base tree; 0: it is an octree
 layout(constant_id = 3) const bool kLeaves = false; // the children are leaves, of a DAG
-
-#include "lib/ranks.glsl"
 
 const bool kRanks = kEntriesPerWord != 0u && kAttributes;
 
@@ -24,8 +21,6 @@ layout(push_constant, scalar) uniform Push
     ExpandParams params;
 };
 
-#define BRICKS_CONSTANT_ID 0
-#include "lib/bricks.glsl"
 #include "update/expand.glsl"
 #include "update/next_level.glsl"
 

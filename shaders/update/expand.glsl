@@ -5,6 +5,12 @@
 #ifndef ZVO_SHADERS_UPDATE_EXPAND_GLSL
 #define ZVO_SHADERS_UPDATE_EXPAND_GLSL
 
+#include "lib/brick_keys.glsl"
+#include "lib/bricks.glsl"
+#include "lib/node.glsl"
+#include "lib/ranks.glsl"
+#include "update/update.h"
+
 uvec2 childKey(uvec2 key, uint cell)
 {
     if (!kWideKeys)

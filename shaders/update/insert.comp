@@ -9,13 +9,15 @@
 #include "lib/dispatch.glsl"
 #include "octree/levels.glsl"
 
+layout(constant_id = 0) const bool kWideKeys = false; // the octree has more than kNarrowLevelsMax levels
+
 layout(local_size_x = kUpdateGroup) in;
 layout(push_constant, scalar) uniform Push
 {
     InsertParams params;
 };
 
-#define BRICKS_CONSTANT_ID 0
+#include "lib/brick_keys.glsl"
 #include "lib/bricks.glsl"
 
 // The last layer whose records begin at this one or before.

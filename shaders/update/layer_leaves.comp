@@ -5,10 +5,10 @@
 // layer cannot be used then. In the end it is known whether there was room for everything.
 #extension GL_GOOGLE_include_directive : require
 #include "update/update.h"
-#define BRICKS_CONSTANT_ID 0
 #include "lib/arrivals.glsl"
-#include "lib/brick_keys.glsl"
 #include "lib/dispatch.glsl"
+
+layout(constant_id = 0) const bool kWideKeys = false; // the octree has more than kNarrowLevelsMax levels
 
 layout(local_size_x = kCollectGroup) in;
 layout(push_constant, scalar) uniform Push
@@ -16,7 +16,7 @@ layout(push_constant, scalar) uniform Push
     LayerLeavesParams params;
 };
 
-#include "lib/brick_loads.glsl"
+#include "lib/brick_keys.glsl"
 #include "lib/found_bricks.glsl"
 
 void listLeaves()

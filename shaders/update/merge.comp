@@ -3,8 +3,6 @@
 // Writes the attributes of the voxels of each touched leaf: those of the base tree where no layer has the voxel, else
 // by kMerge.
 #extension GL_GOOGLE_include_directive : require
-#include "update/update.h"
-#include "lib/dispatch.glsl"
 #include "lib/merge.glsl"
 #include "lib/resolve.glsl"
 

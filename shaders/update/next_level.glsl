@@ -4,6 +4,9 @@
 #ifndef ZVO_SHADERS_UPDATE_NEXT_LEVEL_GLSL
 #define ZVO_SHADERS_UPDATE_NEXT_LEVEL_GLSL
 
+#include "lib/dispatch_args.glsl"
+#include "update/update.h"
+
 // Sizes the level below one, or the leaves' voxels, from the number of its children, which may have wrapped around at
 // 2^32: nothing if they find no room. By one thread. Returns whether they do.
 bool sizeNextLevel(uint level, OverlayLevel span, uint children, bool wrapped)

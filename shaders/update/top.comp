@@ -5,15 +5,12 @@
 // touched nodes found no room, there is no overlay.
 #extension GL_GOOGLE_include_directive : require
 #include "update/update.h"
-#include "lib/dispatch_args.glsl"
-#include "lib/node.glsl"
 #define SCAN_GROUP kRootGroup
 #include "lib/scan.glsl"
 
+layout(constant_id = 0) const bool kWideKeys = false; // the octree has more than kNarrowLevelsMax levels
 layout(constant_id = 1) const bool kAttributes = false;
 layout(constant_id = 2) const uint kEntriesPerWord = 0u; // of the lists of a DAG, as base tree; 0: it is an octree
-
-#include "lib/ranks.glsl"
 
 const bool kRanks = kEntriesPerWord != 0u && kAttributes;
 
@@ -23,8 +20,6 @@ layout(push_constant, scalar) uniform Push
     TopParams params;
 };
 
-#define BRICKS_CONSTANT_ID 0
-#include "lib/bricks.glsl"
 #include "update/expand.glsl"
 #include "update/next_level.glsl"
 

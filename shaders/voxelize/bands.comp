@@ -11,9 +11,8 @@
 #include "lib/arrivals.glsl"
 #include "lib/dispatch.glsl"
 #include "lib/dispatch_args.glsl"
-#include "voxelize/window.glsl"
-#include "voxelize/raster.glsl"
 #include "voxelize/big_triangle.glsl"
+#include "voxelize/raster.glsl"
 
 layout(local_size_x = kBandsGroup) in;
 

@@ -3,6 +3,10 @@
 #ifndef ZVO_SHADERS_VOXELIZE_BIG_TRIANGLE_GLSL
 #define ZVO_SHADERS_VOXELIZE_BIG_TRIANGLE_GLSL
 
+#include "voxelize/raster.glsl"
+#include "voxelize/voxelize.h"
+#include "voxelize/window.glsl"
+
 // RowBlock::position of a block in a column and a row of blocks: row | column << 16.
 uint packBlock(uvec2 block)
 {

@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: MIT
 // Counts the emissive voxels of each block of kScanBlock words of 32 voxels.
 #extension GL_GOOGLE_include_directive : require
-#include "octree/octree.h"
 #include "voxelize/voxelize.h"
-#include "lib/dispatch.glsl"
+#include "octree/octree.h"
 #define SCAN_GROUP kScanGroup
+#include "lib/dispatch.glsl"
 #include "lib/scan.glsl"
 
 layout(local_size_x = kScanGroup) in;

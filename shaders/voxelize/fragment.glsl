@@ -6,6 +6,17 @@
 #ifndef ZVO_SHADERS_VOXELIZE_FRAGMENT_GLSL
 #define ZVO_SHADERS_VOXELIZE_FRAGMENT_GLSL
 
+#include "lib/brick_keys.glsl"
+#include "lib/brick_loads.glsl"
+#include "lib/bricks.glsl"
+#include "lib/morton.glsl"
+#include "lib/resolve.glsl"
+#include "voxelize/raster.glsl"
+#include "voxelize/shading.glsl"
+#include "voxelize/sums.glsl"
+#include "voxelize/voxelize.h"
+#include "voxelize/window.glsl"
+
 layout(constant_id = 7) const bool kMixed = false;
 
 // The leaf of this thread's last fragment, which neighbours mostly share.

@@ -5,6 +5,9 @@
 #ifndef ZVO_SHADERS_VOXELIZE_LOADS_GLSL
 #define ZVO_SHADERS_VOXELIZE_LOADS_GLSL
 
+#include "lib/bound.glsl"
+#include "shared/scene.h"
+
 #ifdef BOUND
 
 TEXELS_1(3, draws);

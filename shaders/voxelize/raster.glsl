@@ -14,6 +14,8 @@
 #ifndef ZVO_SHADERS_VOXELIZE_RASTER_GLSL
 #define ZVO_SHADERS_VOXELIZE_RASTER_GLSL
 
+#include "voxelize/voxelize.h"
+
 // A triangle set up for its grid.
 struct RasterTriangle
 {

@@ -5,8 +5,6 @@
 #include "voxelize/voxelize.h"
 #include "lib/bound.glsl"
 #include "lib/dispatch.glsl"
-#define COLOR_BINDING 0
-#include "lib/resolve.glsl"
 
 layout(local_size_x = kResolveGroup) in;
 layout(push_constant, scalar) uniform Push
@@ -14,7 +12,9 @@ layout(push_constant, scalar) uniform Push
     ResolveParams params;
 };
 
+#define COLOR_BINDING 0
 #define SUMS_BINDING 2
+#include "lib/resolve.glsl"
 #include "voxelize/sum_loads.glsl"
 
 void main()

@@ -5,13 +5,14 @@
 #extension GL_GOOGLE_include_directive : require
 #include "voxelize/voxelize.h"
 #include "lib/dispatch.glsl"
-#include "lib/resolve.glsl"
 
 layout(local_size_x = kResolveGroup) in;
 layout(push_constant, scalar) uniform Push
 {
     ResolveEmissionParams params;
 };
+
+#include "lib/resolve.glsl"
 
 void main()
 {

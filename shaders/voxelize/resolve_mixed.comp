@@ -7,6 +7,7 @@
 #include "lib/bound.glsl"
 #include "lib/dispatch.glsl"
 
+layout(constant_id = 0) const bool kWideKeys = false; // the octree has more than kNarrowLevelsMax levels
 layout(constant_id = 1) const uint kLanes = 1u; // threads that share a leaf, a power of two up to 16
 
 layout(local_size_x = kResolveGroup) in;
@@ -15,15 +16,13 @@ layout(push_constant, scalar) uniform Push
     ResolveMixedParams params;
 };
 
-#define BRICKS_CONSTANT_ID 0
-#include "lib/brick_keys.glsl"
-#define COLOR_BINDING 0
-#include "lib/resolve.glsl"
-
-#define SUMS_BINDING 2
-#include "voxelize/sum_loads.glsl"
 #define BRICKS_BINDING 3
+#define COLOR_BINDING 0
+#define SUMS_BINDING 2
+#include "lib/brick_keys.glsl"
 #include "lib/brick_loads.glsl"
+#include "lib/resolve.glsl"
+#include "voxelize/sum_loads.glsl"
 
 uint rankOf(uint mask, uint cell)
 {

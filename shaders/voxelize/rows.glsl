@@ -6,10 +6,12 @@
 #define ZVO_SHADERS_VOXELIZE_ROWS_GLSL
 
 #include "voxelize/constants.glsl"
+
+layout(constant_id = 6) const bool kWideKeys = false; // the octree has more than kNarrowLevelsMax levels
+
 #define EDGE_INT int64_t
 #define EDGE_IVEC3 i64vec3
 #define EDGE_WIDE
-#define BRICKS_CONSTANT_ID 6
 #define BRICKS_BINDING 0
 #include "lib/bricks.glsl"
 #include "lib/dispatch.glsl"

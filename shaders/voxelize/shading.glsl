@@ -3,6 +3,11 @@
 #ifndef ZVO_SHADERS_VOXELIZE_SHADING_GLSL
 #define ZVO_SHADERS_VOXELIZE_SHADING_GLSL
 
+#include "lib/attribute.glsl"
+#include "lib/divide.glsl"
+#include "voxelize/loads.glsl"
+#include "voxelize/voxelize.h"
+
 // Texture coordinates of the three vertices of a triangle, 16.16.
 struct TriangleUvs
 {

@@ -5,6 +5,9 @@
 #ifndef ZVO_SHADERS_VOXELIZE_SUM_LOADS_GLSL
 #define ZVO_SHADERS_VOXELIZE_SUM_LOADS_GLSL
 
+#include "lib/bound.glsl"
+#include "voxelize/voxelize.h"
+
 #ifdef BOUND
 TEXELS_4(SUMS_BINDING, sums);
 

@@ -7,6 +7,9 @@
 #ifndef ZVO_SHADERS_VOXELIZE_SUMS_GLSL
 #define ZVO_SHADERS_VOXELIZE_SUMS_GLSL
 
+#include "lib/bound.glsl"
+#include "voxelize/voxelize.h"
+
 // SUM_PAIR, SUM_WORD: a pair of words, or a word, of the sums of a voxel.
 #ifdef BOUND
 #ifdef INT64_ATOMICS

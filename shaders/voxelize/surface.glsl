@@ -3,6 +3,12 @@
 #ifndef ZVO_SHADERS_VOXELIZE_SURFACE_GLSL
 #define ZVO_SHADERS_VOXELIZE_SURFACE_GLSL
 
+#include "lib/attribute.glsl"
+#include "voxelize/loads.glsl"
+#include "voxelize/shading.glsl"
+#include "voxelize/vertex.glsl"
+#include "voxelize/voxelize.h"
+
 TriangleUvs loadUvs(uint first, uvec3 vertices)
 {
     ivec2 uv0 = loadUv(first + vertices.x);

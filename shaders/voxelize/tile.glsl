@@ -11,6 +11,11 @@
 #ifndef ZVO_SHADERS_VOXELIZE_TILE_GLSL
 #define ZVO_SHADERS_VOXELIZE_TILE_GLSL
 
+#include "lib/bricks.glsl"
+#include "voxelize/fragment.glsl"
+#include "voxelize/raster.glsl"
+#include "voxelize/voxelize.h"
+
 const uint kTileLeaves = 3u; // 7 layers
 
 struct Tile

@@ -6,14 +6,18 @@
 #define ZVO_SHADERS_VOXELIZE_TRIANGLES_GLSL
 
 #include "voxelize/constants.glsl"
+
+layout(constant_id = 6) const bool kWideKeys = false; // the octree has more than kNarrowLevelsMax levels
+
 #define EDGE_INT int
 #define EDGE_IVEC3 ivec3
-#define BRICKS_CONSTANT_ID 6
 #define BRICKS_BINDING 0
 #include "lib/arrivals.glsl"
 #include "lib/bricks.glsl"
 #include "lib/dispatch.glsl"
 #include "lib/dispatch_args.glsl"
+#include "lib/divide.glsl"
+#include "lib/finite.glsl"
 #include "voxelize/window.glsl"
 #include "voxelize/raster.glsl"
 #define COLOR_BINDING 15

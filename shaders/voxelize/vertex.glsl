@@ -4,7 +4,8 @@
 #ifndef ZVO_SHADERS_VOXELIZE_VERTEX_GLSL
 #define ZVO_SHADERS_VOXELIZE_VERTEX_GLSL
 
-#include "lib/finite.glsl"
+#include "voxelize/loads.glsl"
+#include "voxelize/voxelize.h"
 
 // The exponent of a float: its lowest bit, its bits from there on, and what stands for 2^0.
 const uint kExponentShift = 23u;

@@ -13,7 +13,7 @@ bool standsByLevels(const DeviceTree& tree);
 /// Whether rays begin below the root, by paths (shaders/trace/node_paths.h).
 bool usesPaths(const DeviceTree& tree, const TraceOptions& options);
 
-/// Sets the constants of a kernel with trace/path_loads.glsl for a tree and options.
+/// Sets the constants of a kernel with trace/traverse_paths.glsl for a tree and options.
 template <typename Kernel> Kernel beginningOnPaths(Kernel kernel, const DeviceTree& tree, const TraceOptions& options)
 {
     const bool paths = usesPaths(tree, options);

@@ -3,6 +3,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "params.h"
+#include "shared/gpu.h"
 
 layout(local_size_x = 1) in;
 layout(push_constant, scalar) uniform Params

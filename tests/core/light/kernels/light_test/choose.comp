@@ -4,8 +4,6 @@
 #extension GL_GOOGLE_include_directive : require
 #include "choose.h"
 #include "lib/dispatch.glsl"
-#include "lib/morton.glsl"
-#include "lib/node.glsl"
 #include "lib/sobol.glsl"
 #include "path/face.glsl"
 
@@ -19,9 +17,10 @@ layout(push_constant, scalar) uniform Push
     ChooseParams params;
 };
 
-#define LIGHT_NODES params.nodes
 #define LIGHT_BRICKS params.bricks
+#define LIGHT_NODES params.nodes
 #include "light/choose.glsl"
+#include "light/importance.glsl"
 
 void main()
 {

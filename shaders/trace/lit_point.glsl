@@ -1,8 +1,14 @@
 // SPDX-License-Identifier: MIT
-// The origin of rays that gather light for a hit. The includer includes trace/trace.h, lib/attribute_formats.glsl,
-// lib/hit.glsl, lib/surface_normal.glsl and lib/traverse.glsl before.
-#ifndef ZVO_SHADERS_LIB_LIT_POINT_GLSL
-#define ZVO_SHADERS_LIB_LIT_POINT_GLSL
+// The origin of rays that gather light for a hit: rays that begin below the root, as trace/traverse_paths.glsl traces them.
+#ifndef ZVO_SHADERS_TRACE_LIT_POINT_GLSL
+#define ZVO_SHADERS_TRACE_LIT_POINT_GLSL
+
+#include "lib/attribute_formats.glsl"
+#include "lib/hit.glsl"
+#include "lib/surface_normal.glsl"
+#include "shared/attribute_formats.h"
+#include "shared/trace.h"
+#include "trace/traverse_paths.glsl"
 
 struct LitPoint
 {
