@@ -4,7 +4,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "baseline/crassin_green.glsl"
 #include "lib/dispatch.glsl"
-#include "lib/resolve.glsl"
+#include "voxelize/resolve.glsl"
 
 void main()
 {

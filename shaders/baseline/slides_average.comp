@@ -14,7 +14,7 @@ layout(push_constant, scalar) uniform Push
 };
 
 #define COLOR_BINDING 0
-#include "lib/resolve.glsl"
+#include "voxelize/resolve.glsl"
 
 void addFragment(inout VoxelSums sums, SlidesFragment fragment)
 {

@@ -11,7 +11,7 @@ layout(push_constant, scalar) uniform Push
     ThesisResolveParams params;
 };
 
-#include "lib/resolve.glsl"
+#include "voxelize/resolve.glsl"
 
 void main()
 {

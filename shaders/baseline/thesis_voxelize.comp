@@ -24,9 +24,9 @@ layout(push_constant, scalar) uniform Push
 };
 
 #include "baseline/thesis_triangle.glsl"
-#include "lib/resolve.glsl"
 #include "voxelize/loads.glsl"
 #include "voxelize/raster.glsl"
+#include "voxelize/resolve.glsl"
 #include "voxelize/shading.glsl"
 #include "voxelize/sums.glsl"
 #include "voxelize/surface.glsl"

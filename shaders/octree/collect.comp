@@ -20,7 +20,7 @@ layout(push_constant, scalar) uniform Push
 
 #define BRICKS_BINDING 0
 #include "lib/brick_loads.glsl"
-#include "lib/found_bricks.glsl"
+#include "octree/found_bricks.glsl"
 
 // Gives the mixed voxels of a leaf room for their sums.
 void placeMixed(uint entry)

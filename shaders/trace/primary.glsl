@@ -37,7 +37,7 @@ layout(push_constant, scalar) uniform Push
 #define PATHS_BINDING 1
 #include "lib/half_node.glsl"
 #include "trace/traverse_paths.glsl"
-#include "lib/rounds.glsl"
+#include "trace/rounds.glsl"
 
 #ifdef PRIMARY_RANKS
 #include "lib/morton.glsl"

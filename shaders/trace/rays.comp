@@ -10,8 +10,8 @@
 #include "lib/hit.glsl"
 #include "lib/ray.glsl"
 #include "lib/ray_words.glsl"
-#include "lib/rounds.glsl"
 #include "lib/traverse.glsl"
+#include "trace/rounds.glsl"
 
 layout(constant_id = 4) const bool kResume = false; // only rays that the round before left unfinished
 layout(constant_id = 5) const bool kMore = false;     // another round follows

@@ -11,7 +11,7 @@
 #include "lib/half_node.glsl"
 #include "lib/hit.glsl"
 #include "lib/ray.glsl"
-#include "lib/rounds.glsl"
+#include "trace/rounds.glsl"
 
 layout(constant_id = 4) const bool kOrthographic = false;
 layout(constant_id = 5) const uint kFormat = kFormat8; // of attributes

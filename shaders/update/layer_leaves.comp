@@ -17,7 +17,7 @@ layout(push_constant, scalar) uniform Push
 };
 
 #include "lib/brick_keys.glsl"
-#include "lib/found_bricks.glsl"
+#include "octree/found_bricks.glsl"
 
 void listLeaves()
 {

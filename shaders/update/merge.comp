@@ -3,8 +3,8 @@
 // Writes the attributes of the voxels of each touched leaf: those of the base tree where no layer has the voxel, else
 // by kMerge.
 #extension GL_GOOGLE_include_directive : require
-#include "lib/merge.glsl"
-#include "lib/resolve.glsl"
+#include "update/merge.glsl"
+#include "voxelize/resolve.glsl"
 
 layout(local_size_x = kUpdateGroup) in;
 

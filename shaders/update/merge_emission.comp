@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: MIT
 // Writes the emission of the emissive voxels of each touched leaf, by the same rule as their colour.
 #extension GL_GOOGLE_include_directive : require
-#include "lib/merge.glsl"
+#include "update/merge.glsl"
 #include "lib/emission.glsl"
-#include "lib/resolve.glsl"
+#include "voxelize/resolve.glsl"
 
 layout(local_size_x = kUpdateGroup) in;
 

@@ -270,7 +270,7 @@ struct MergeView
 };
 GPU_BUFFER(MergeView, 8);
 
-// The constants of every kernel with lib/merge.glsl.
+// The constants of every kernel with update/merge.glsl.
 #define MERGE_CONSTANTS                                                                                                \
     GPU_CONSTANT(MergeRule, merge, kMergeAverage)                                                                      \
     GPU_CONSTANT(bool, emits, false)                                                                                   \

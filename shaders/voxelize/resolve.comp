@@ -14,8 +14,7 @@ layout(push_constant, scalar) uniform Push
 
 #define COLOR_BINDING 0
 #define SUMS_BINDING 2
-#include "lib/resolve.glsl"
-#include "voxelize/sum_loads.glsl"
+#include "voxelize/resolve.glsl"
 
 void main()
 {

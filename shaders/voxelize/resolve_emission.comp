@@ -12,7 +12,7 @@ layout(push_constant, scalar) uniform Push
     ResolveEmissionParams params;
 };
 
-#include "lib/resolve.glsl"
+#include "voxelize/resolve.glsl"
 
 void main()
 {

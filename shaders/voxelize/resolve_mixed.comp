@@ -21,8 +21,7 @@ layout(push_constant, scalar) uniform Push
 #define SUMS_BINDING 2
 #include "lib/brick_keys.glsl"
 #include "lib/brick_loads.glsl"
-#include "lib/resolve.glsl"
-#include "voxelize/sum_loads.glsl"
+#include "voxelize/resolve.glsl"
 
 uint rankOf(uint mask, uint cell)
 {

@@ -21,7 +21,7 @@ layout(constant_id = 6) const bool kWideKeys = false; // the octree has more tha
 #include "voxelize/window.glsl"
 #include "voxelize/raster.glsl"
 #define COLOR_BINDING 15
-#include "lib/resolve.glsl"
+#include "voxelize/resolve.glsl"
 #include "voxelize/loads.glsl"
 #include "voxelize/shading.glsl"
 #include "voxelize/vertex.glsl"

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
-// The voxels of touched leaves, and the layers' voxels at the same positions. The includer includes update/update.h.
-#ifndef ZVO_SHADERS_LIB_MERGE_GLSL
-#define ZVO_SHADERS_LIB_MERGE_GLSL
+// The voxels of touched leaves, and the layers' voxels at the same positions: what update/merge and update/merge_emission
+// share, their constants and parameters included.
+#ifndef ZVO_SHADERS_UPDATE_MERGE_GLSL
+#define ZVO_SHADERS_UPDATE_MERGE_GLSL
 
 #include "lib/dispatch.glsl"
 #include "lib/emission.glsl"

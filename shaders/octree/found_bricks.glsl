@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Finds the occupied entries of a brick table, kCollectItems for each thread of workgroups of kCollectGroup, and counts
-// their voxels. To list them, a kernel takes room for a whole subgroup by one atomic; there are no barriers. The
-// includer includes lib/brick_loads.glsl.
-#ifndef ZVO_SHADERS_LIB_FOUND_BRICKS_GLSL
-#define ZVO_SHADERS_LIB_FOUND_BRICKS_GLSL
+// their voxels. To list them, a kernel takes room for a whole subgroup by one atomic; there are no barriers.
+#ifndef ZVO_SHADERS_OCTREE_FOUND_BRICKS_GLSL
+#define ZVO_SHADERS_OCTREE_FOUND_BRICKS_GLSL
 
 #extension GL_KHR_shader_subgroup_arithmetic : require
 #extension GL_KHR_shader_subgroup_ballot : require

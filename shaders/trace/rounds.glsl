@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Rays that used up the iterations of an invocation. The includer includes trace/trace.h before.
-#ifndef ZVO_SHADERS_LIB_ROUNDS_GLSL
-#define ZVO_SHADERS_LIB_ROUNDS_GLSL
+// Rays that used up the iterations of an invocation.
+#ifndef ZVO_SHADERS_TRACE_ROUNDS_GLSL
+#define ZVO_SHADERS_TRACE_ROUNDS_GLSL
 
 #include "trace/trace.h"
 

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: MIT
-// From sums over a voxel's fragments to its attribute and its emission. The includer includes voxelize/voxelize.h.
-#ifndef ZVO_SHADERS_LIB_RESOLVE_GLSL
-#define ZVO_SHADERS_LIB_RESOLVE_GLSL
+// From sums over a voxel's fragments to its attribute and its emission.
+// SUMS_BINDING (optional): the kernel's params have sums and max_fragments; the binding of sums in its bound form
+// (lib/bound.glsl).
+#ifndef ZVO_SHADERS_VOXELIZE_RESOLVE_GLSL
+#define ZVO_SHADERS_VOXELIZE_RESOLVE_GLSL
 
 #include "lib/attribute.glsl"
+#include "lib/bound.glsl"
 #include "lib/divide.glsl"
 #include "lib/normal_code.glsl"
 #include "voxelize/voxelize.h"
@@ -79,5 +82,30 @@ void addEmission(inout EmissionSums sums, EmissionSums more, uint shift)
     sums.green += more.green >> shift;
     sums.blue += more.blue >> shift;
 }
+
+#ifdef SUMS_BINDING
+#ifdef BOUND
+TEXELS_4(SUMS_BINDING, sums);
+
+VoxelSums loadSums(uint i)
+{
+    uvec4 a = texelFetch(texels4_sums, int(2u * i));
+    uvec4 b = texelFetch(texels4_sums, int(2u * i + 1u));
+    return VoxelSums(a.x, a.y, a.z, a.w, b.x, b.y, b.z, b.w);
+}
+#else
+VoxelSums loadSums(uint i)
+{
+    return params.sums.data[i];
+}
+#endif
+
+// Notes a voxel whose fragments are too many for its sums.
+void noteFragments(VoxelSums sums)
+{
+    if ((sums.fragments >> params.sum_shift) > kFragmentsMax)
+        atomicMax(params.max_fragments.data[0], sums.fragments);
+}
+#endif
 
 #endif
