@@ -11,7 +11,7 @@
 #include "attributes/scales.glsl"
 #include "lib/attribute_formats.glsl"
 #include "lib/dispatch.glsl"
-#include "lib/normal_code.glsl"
+#include "lib/normal.glsl"
 
 layout(local_size_x = kPackGroup) in;
 layout(push_constant, scalar) uniform Push

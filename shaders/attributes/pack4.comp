@@ -7,7 +7,7 @@
 #include "attributes/attributes.h"
 #include "attributes/color.glsl"
 #include "lib/dispatch.glsl"
-#include "lib/normal_code.glsl"
+#include "lib/normal.glsl"
 
 layout(local_size_x = kPackGroup) in;
 layout(push_constant, scalar) uniform Push

@@ -6,7 +6,7 @@
 #include "baseline/crassin_green.glsl"
 #include "lib/attribute.glsl"
 #include "lib/dispatch.glsl"
-#include "lib/normal_code.glsl"
+#include "lib/normal.glsl"
 
 #define SUM_WORD(VOXEL, WORD) uint_Ptr(uint64_t(params.sums) + uint64_t(VOXEL) * kVoxelSumsBytes).data[WORD]
 

@@ -4,7 +4,6 @@
 #extension GL_GOOGLE_include_directive : require
 #include "baseline/crassin_green.glsl"
 #include "lib/dispatch.glsl"
-#include "lib/dispatch_args.glsl"
 
 void main()
 {

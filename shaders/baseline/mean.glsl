@@ -4,8 +4,8 @@
 #define ZVO_SHADERS_BASELINE_MEAN_GLSL
 
 #include "baseline/pointer_octree.h"
-#include "lib/divide.glsl"
-#include "lib/normal_code.glsl"
+#include "lib/arithmetic.glsl"
+#include "lib/normal.glsl"
 
 struct MeanSums
 {

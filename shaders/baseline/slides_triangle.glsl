@@ -14,7 +14,7 @@
 #define ZVO_SHADERS_BASELINE_SLIDES_TRIANGLE_GLSL
 
 #include "baseline/slides.h"
-#include "lib/finite.glsl"
+#include "lib/arithmetic.glsl"
 #include "voxelize/vertex.glsl"
 
 // Edge functions in a projection, of the edges from each corner to the next: a x + b y + c for the voxel at (x, y), with

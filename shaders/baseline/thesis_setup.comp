@@ -5,8 +5,8 @@
 // here vertices are snapped to zvo's lattice, and everything is an integer, so that voxels can be compared.
 #extension GL_GOOGLE_include_directive : require
 #include "baseline/thesis.h"
+#include "lib/arithmetic.glsl"
 #include "lib/dispatch.glsl"
-#include "lib/finite.glsl"
 
 layout(constant_id = 0) const uint kCoverage = kCoverageConservative;
 

@@ -5,8 +5,8 @@
 #include "denoise/denoise.h"
 #include "denoise/albedo.glsl"
 #include "denoise/guide.glsl"
+#include "lib/color.glsl"
 #include "lib/dispatch.glsl"
-#include "lib/luminance.glsl"
 #include "path/features.glsl"
 #include "path/strip.glsl"
 

@@ -4,8 +4,8 @@
 #extension GL_GOOGLE_include_directive : require
 #include "denoise/denoise.h"
 #include "denoise/guide.glsl"
+#include "lib/color.glsl"
 #include "lib/dispatch.glsl"
-#include "lib/luminance.glsl"
 
 layout(constant_id = 0) const bool kOrthographic = false;
 

@@ -4,7 +4,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "denoise/denoise.h"
 #include "denoise/guide.glsl"
-#include "denoise/motion.glsl"
+#include "lib/camera.glsl"
 #include "lib/dispatch.glsl"
 
 layout(constant_id = 0) const bool kOrthographic = false;

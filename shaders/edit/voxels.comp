@@ -4,7 +4,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "edit/voxels.glsl"
 #include "edit/cells.glsl"
-#include "lib/normal_code.glsl"
+#include "lib/normal.glsl"
 
 layout(constant_id = 0) const bool kEmits = false;
 

@@ -4,8 +4,7 @@
 #ifndef ZVO_SHADERS_HOST_KEPT_LIGHT_GLSL
 #define ZVO_SHADERS_HOST_KEPT_LIGHT_GLSL
 
-#include "lib/frame.glsl"
-#include "lib/sobol.glsl"
+#include "lib/sampling.glsl"
 #include "radiance/kept_faces.h"
 #include "light/map_radiance.glsl"
 #include "light/sun_irradiance.glsl"

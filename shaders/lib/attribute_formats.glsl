@@ -3,7 +3,7 @@
 #ifndef ZVO_SHADERS_LIB_ATTRIBUTE_FORMATS_GLSL
 #define ZVO_SHADERS_LIB_ATTRIBUTE_FORMATS_GLSL
 
-#include "lib/normal_code.glsl"
+#include "lib/normal.glsl"
 #include "shared/attribute_formats.h"
 
 // 8 bits a channel of a colour in 5, 6 and 5 bits: c * 255 / 31 and c * 255 / 63, rounded.

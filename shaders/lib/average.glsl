@@ -10,10 +10,10 @@
 #ifndef ZVO_SHADERS_LIB_AVERAGE_GLSL
 #define ZVO_SHADERS_LIB_AVERAGE_GLSL
 
+#include "lib/arithmetic.glsl"
 #include "lib/attribute.glsl"
 #include "lib/bound.glsl"
-#include "lib/divide.glsl"
-#include "lib/normal_code.glsl"
+#include "lib/normal.glsl"
 #include "shared/octree.h"
 #include "shared/scene.h"
 

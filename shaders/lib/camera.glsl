@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Rays of a picture's pixels, and the tiles that they are traced in. The includer includes trace/trace.h before.
+// Rays of a picture's pixels, the tiles that they are traced in, and where a camera sees a place.
 #ifndef ZVO_SHADERS_LIB_CAMERA_GLSL
 #define ZVO_SHADERS_LIB_CAMERA_GLSL
+
+#include "shared/trace.h"
 
 // Twice the offset of a pixel's centre from the picture's, in pixels: exact.
 vec2 pixelOffset(uvec2 pixel, uvec2 size)
@@ -31,6 +33,17 @@ uint packTile(uvec2 tile)
 uvec2 unpackTile(uint tile)
 {
     return uvec2(bitfieldExtract(tile, 0, 16), tile >> 16);
+}
+
+// Coordinates in pixels, whole numbers at the pixels' centres, of a place from the camera's origin; far outside if it
+// is behind the camera.
+vec2 pixelOfPlace(vec3 place, uvec2 size, bool orthographic, CameraRays camera)
+{
+    float depth = dot(place, camera.forward);
+    vec3 offset = orthographic ? place : place / depth;
+    vec2 n = vec2(dot(offset, camera.half_pixel_x) / dot(camera.half_pixel_x, camera.half_pixel_x),
+                  dot(offset, camera.half_pixel_y) / dot(camera.half_pixel_y, camera.half_pixel_y));
+    return !orthographic && depth <= 0.0 ? vec2(-1e6) : 0.5 * (n + vec2(size)) - 0.5;
 }
 
 #endif

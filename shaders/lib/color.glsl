@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Colours between their stored and their linear values.
+// Colours between their stored and their linear values, and how bright they are.
 #ifndef ZVO_SHADERS_LIB_COLOR_GLSL
 #define ZVO_SHADERS_LIB_COLOR_GLSL
 
@@ -57,6 +57,12 @@ vec3 heatColor(float x)
     return clamp(vec3(3.0 * x - 0.75, 3.0 * x - 1.75,
                       x < 0.5 ? 4.0 * x * (1.0 - x) - 2.0 * max(x - 0.25, 0.0) : 4.0 * x - 3.0),
                  0.0, 1.0);
+}
+
+// Relative luminance of linear sRGB (ITU-R BT.709).
+float luminance(vec3 color)
+{
+    return dot(color, vec3(0.2126, 0.7152, 0.0722));
 }
 
 #endif

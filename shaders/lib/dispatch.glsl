@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MIT
-// Numbers of workgroups and threads of dispatches that were folded from one dimension into two.
+// Numbers of workgroups and threads of dispatches that were folded from one dimension into two, and the arguments of such
+// dispatches.
 #ifndef ZVO_SHADERS_LIB_DISPATCH_GLSL
 #define ZVO_SHADERS_LIB_DISPATCH_GLSL
+
+#include "shared/gpu.h"
 
 // Number of this workgroup in dispatch order.
 uint workgroupIndex()
@@ -20,6 +23,13 @@ uint interleave(uint index, uint count)
 {
     uint half_count = (count + 1u) / 2u;
     return index < half_count ? 2u * index : 2u * (index - half_count) + 1u;
+}
+
+// The arguments of an indirect dispatch of this many workgroups, folded so.
+DispatchArgs foldedArgs(uint groups, uint max_groups_x)
+{
+    uint rows = (groups + max_groups_x - 1u) / max_groups_x;
+    return DispatchArgs(rows > 1u ? max_groups_x : groups, rows, 1u);
 }
 
 #endif

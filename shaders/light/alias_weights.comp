@@ -3,8 +3,8 @@
 // Computes the weight of each cell in the table of each normal, and the heaviest ones.
 #extension GL_GOOGLE_include_directive : require
 #include "light/environment.h"
+#include "lib/color.glsl"
 #include "lib/dispatch.glsl"
-#include "lib/luminance.glsl"
 #include "light/map.glsl"
 
 layout(constant_id = 0) const bool kEvenly = false; // by solid angle alone

@@ -6,7 +6,6 @@
 #include "lib/color.glsl"
 #include "lib/dispatch.glsl"
 #include "lib/emission.glsl"
-#include "lib/luminance.glsl"
 #include "lib/morton.glsl"
 #include "lib/node.glsl"
 #include "light/bounds.glsl"

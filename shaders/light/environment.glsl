@@ -4,7 +4,7 @@
 #ifndef ZVO_SHADERS_LIGHT_ENVIRONMENT_GLSL
 #define ZVO_SHADERS_LIGHT_ENVIRONMENT_GLSL
 
-#include "lib/frame.glsl"
+#include "lib/sampling.glsl"
 #include "light/map.glsl"
 #include "light/outside.h"
 

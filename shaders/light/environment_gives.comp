@@ -4,7 +4,7 @@
 // for there.
 #extension GL_GOOGLE_include_directive : require
 #include "light/environment.h"
-#include "lib/luminance.glsl"
+#include "lib/color.glsl"
 
 layout(local_size_x = kArgsGroup) in;
 layout(push_constant, scalar) uniform Push

@@ -4,7 +4,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "light/light_tree.h"
 #define SCAN_GROUP kLightGroup
-#include "lib/dispatch_args.glsl"
+#include "lib/dispatch.glsl"
 #include "lib/scan.glsl"
 
 layout(local_size_x = kLightGroup) in;

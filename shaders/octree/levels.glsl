@@ -3,7 +3,7 @@
 #ifndef ZVO_SHADERS_OCTREE_LEVELS_GLSL
 #define ZVO_SHADERS_OCTREE_LEVELS_GLSL
 
-#include "lib/dispatch_args.glsl"
+#include "lib/dispatch.glsl"
 #include "octree/octree.h"
 
 // Workgroups for one thread a node.

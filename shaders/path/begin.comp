@@ -4,8 +4,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "path/path.h"
 #include "lib/dispatch.glsl"
-#include "lib/dispatch_args.glsl"
-#include "lib/ray_words.glsl"
+#include "lib/ray.glsl"
 #include "path/state.glsl"
 #include "path/strip.glsl"
 

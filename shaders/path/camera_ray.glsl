@@ -6,7 +6,7 @@
 
 #include "lib/camera.glsl"
 #include "lib/ray.glsl"
-#include "lib/sobol.glsl"
+#include "lib/sampling.glsl"
 #include "path/numbers.glsl"
 #include "path/path.h"
 

@@ -5,7 +5,7 @@
 #define ZVO_SHADERS_PATH_FEATURE_SUM_GLSL
 
 #include "lib/hit.glsl"
-#include "lib/surface_normal.glsl"
+#include "lib/normal.glsl"
 #include "path/features.glsl"
 #include "path/path.h"
 #include "trace/surface.glsl"

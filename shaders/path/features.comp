@@ -3,10 +3,10 @@
 // Adds what the camera's rays see to the features of each pixel of a batch.
 #extension GL_GOOGLE_include_directive : require
 #include "path/path.h"
+#include "lib/color.glsl"
 #include "lib/dispatch.glsl"
 #include "lib/hit.glsl"
-#include "lib/luminance.glsl"
-#include "lib/ray_words.glsl"
+#include "lib/ray.glsl"
 
 layout(constant_id = 0) const uint kNodeLevels = 5u;
 layout(constant_id = 1) const uint kFormat = kFormat8; // of attributes

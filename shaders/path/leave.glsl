@@ -5,9 +5,8 @@
 #ifndef ZVO_SHADERS_PATH_LEAVE_GLSL
 #define ZVO_SHADERS_PATH_LEAVE_GLSL
 
-#include "lib/frame.glsl"
 #include "lib/ray.glsl"
-#include "lib/sobol.glsl"
+#include "lib/sampling.glsl"
 #include "light/importance.glsl"
 #include "path/face.glsl"
 #include "path/numbers.glsl"

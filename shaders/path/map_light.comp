@@ -4,7 +4,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "path/path.h"
 #include "lib/dispatch.glsl"
-#include "lib/ray_words.glsl"
+#include "lib/ray.glsl"
 #include "path/state.glsl"
 
 layout(constant_id = 0) const uint kSampling = kSampleBoth; // how light is found

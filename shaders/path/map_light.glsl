@@ -4,7 +4,7 @@
 #ifndef ZVO_SHADERS_PATH_MAP_LIGHT_GLSL
 #define ZVO_SHADERS_PATH_MAP_LIGHT_GLSL
 
-#include "lib/sobol.glsl"
+#include "lib/sampling.glsl"
 #include "light/environment.glsl"
 #include "light/map_radiance.glsl"
 #include "path/chosen.glsl"

@@ -3,8 +3,8 @@
 // Counts the pixels of each brightness, for the automatic exposure.
 #extension GL_GOOGLE_include_directive : require
 #include "path/path.h"
+#include "lib/color.glsl"
 #include "lib/dispatch.glsl"
-#include "lib/luminance.glsl"
 
 layout(local_size_x = kPathGroup) in;
 layout(push_constant, scalar) uniform Push

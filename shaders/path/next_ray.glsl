@@ -5,7 +5,7 @@
 #define ZVO_SHADERS_PATH_NEXT_RAY_GLSL
 
 #include "lib/hit.glsl"
-#include "lib/sobol.glsl"
+#include "lib/sampling.glsl"
 #include "path/face.glsl"
 #include "path/hit_voxel.glsl"
 #include "path/leave.glsl"

@@ -6,7 +6,7 @@
 #include "path/path.h"
 #include "lib/dispatch.glsl"
 #include "lib/hit.glsl"
-#include "lib/ray_words.glsl"
+#include "lib/ray.glsl"
 #include "path/state.glsl"
 
 layout(constant_id = 0) const uint kNodeLevels = 5u;

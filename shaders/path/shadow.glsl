@@ -5,7 +5,6 @@
 #define ZVO_SHADERS_PATH_SHADOW_GLSL
 
 #include "lib/ray.glsl"
-#include "lib/ray_words.glsl"
 #include "path/chosen.glsl"
 #include "path/lists.glsl"
 #include "path/path.h"

@@ -3,7 +3,7 @@
 #ifndef ZVO_SHADERS_PATH_SUM_GLSL
 #define ZVO_SHADERS_PATH_SUM_GLSL
 
-#include "lib/luminance.glsl"
+#include "lib/color.glsl"
 #include "path/path.h"
 
 // Adds a sample of a pixel, of which no other thread has one at the same time.

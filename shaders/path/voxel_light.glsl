@@ -6,7 +6,7 @@
 #define ZVO_SHADERS_PATH_VOXEL_LIGHT_GLSL
 
 #include "lib/hit.glsl"
-#include "lib/sobol.glsl"
+#include "lib/sampling.glsl"
 #include "light/choose.glsl"
 #include "light/importance.glsl"
 #include "path/chosen.glsl"

@@ -5,9 +5,9 @@
 #extension GL_GOOGLE_include_directive : require
 #include "radiance/radiance.h"
 #include "lib/bound.glsl"
+#include "lib/color.glsl"
 #include "lib/dispatch.glsl"
-#include "lib/luminance.glsl"
-#include "lib/sobol.glsl"
+#include "lib/sampling.glsl"
 
 layout(local_size_x = kRadianceGroup) in;
 layout(push_constant, scalar) uniform Push

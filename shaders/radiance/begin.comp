@@ -5,7 +5,7 @@
 #include "radiance/radiance.h"
 #include "lib/bound.glsl"
 #include "lib/dispatch.glsl"
-#include "lib/ray_words.glsl"
+#include "path/face.glsl"
 #include "path/numbers.glsl"
 #include "path/point_of_face.glsl"
 #include "path/state.glsl"

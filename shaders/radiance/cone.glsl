@@ -9,7 +9,7 @@
 #include "lib/morton.glsl"
 #include "lib/node.glsl"
 #include "lib/ray.glsl"
-#include "lib/sobol.glsl"
+#include "lib/sampling.glsl"
 #include "radiance/face_table.glsl"
 #include "radiance/kept_faces.h"
 #include "radiance/kept_light.glsl"

@@ -11,8 +11,7 @@
 #include "radiance/radiance.h"
 #include "lib/bound.glsl"
 #include "lib/dispatch.glsl"
-#include "lib/frame.glsl"
-#include "lib/sobol.glsl"
+#include "lib/sampling.glsl"
 #include "trace/trace.h"
 
 layout(constant_id = 0) const uint kNodeLevels = 5u;

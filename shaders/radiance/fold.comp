@@ -6,7 +6,7 @@
 #include "radiance/radiance.h"
 #include "lib/bound.glsl"
 #include "lib/dispatch.glsl"
-#include "lib/sobol.glsl"
+#include "lib/sampling.glsl"
 #include "radiance/kept_light.glsl"
 
 layout(local_size_x = kRadianceGroup) in;

@@ -7,7 +7,7 @@
 #include "radiance/radiance.h"
 #include "lib/bound.glsl"
 #include "lib/dispatch.glsl"
-#include "lib/ray_words.glsl"
+#include "lib/ray.glsl"
 #include "path/face.glsl"
 #include "path/state.glsl"
 

@@ -4,7 +4,7 @@
 #ifndef ZVO_SHADERS_RADIANCE_RANK_GLSL
 #define ZVO_SHADERS_RADIANCE_RANK_GLSL
 
-#include "lib/sobol.glsl"
+#include "lib/sampling.glsl"
 #include "radiance/kept_light.glsl"
 #include "radiance/radiance.h"
 

@@ -12,7 +12,7 @@
 #include "lib/morton.glsl"
 #include "lib/node.glsl"
 #include "lib/ray.glsl"
-#include "lib/surface_normal.glsl"
+#include "lib/normal.glsl"
 #include "shared/tree_table.h"
 
 // These are constants in zvo's kernels (lib/traverse.glsl). Here trees differ, so setTree() sets those that are

@@ -5,7 +5,7 @@
 
 #include "lib/attribute_formats.glsl"
 #include "lib/hit.glsl"
-#include "lib/surface_normal.glsl"
+#include "lib/normal.glsl"
 #include "shared/attribute_formats.h"
 #include "shared/trace.h"
 #include "trace/traverse_paths.glsl"

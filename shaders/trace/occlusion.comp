@@ -9,10 +9,10 @@
 #include "lib/bound.glsl"
 #include "lib/camera.glsl"
 #include "lib/dispatch.glsl"
-#include "lib/frame.glsl"
 #include "lib/half_node.glsl"
 #include "lib/hit.glsl"
 #include "lib/ray.glsl"
+#include "lib/sampling.glsl"
 
 layout(constant_id = 4) const bool kOrthographic = false;
 layout(constant_id = 5) const uint kFormat = kFormat8; // of attributes

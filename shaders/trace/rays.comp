@@ -9,7 +9,6 @@
 #include "lib/half_node.glsl"
 #include "lib/hit.glsl"
 #include "lib/ray.glsl"
-#include "lib/ray_words.glsl"
 #include "lib/traverse.glsl"
 #include "trace/rounds.glsl"
 

@@ -4,7 +4,7 @@
 #ifndef ZVO_SHADERS_UPDATE_NEXT_LEVEL_GLSL
 #define ZVO_SHADERS_UPDATE_NEXT_LEVEL_GLSL
 
-#include "lib/dispatch_args.glsl"
+#include "lib/dispatch.glsl"
 #include "update/update.h"
 
 // Sizes the level below one, or the leaves' voxels, from the number of its children, which may have wrapped around at

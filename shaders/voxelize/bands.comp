@@ -10,7 +10,6 @@
 #define EDGE_WIDE
 #include "lib/arrivals.glsl"
 #include "lib/dispatch.glsl"
-#include "lib/dispatch_args.glsl"
 #include "voxelize/big_triangle.glsl"
 #include "voxelize/raster.glsl"
 

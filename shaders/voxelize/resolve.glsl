@@ -5,10 +5,10 @@
 #ifndef ZVO_SHADERS_VOXELIZE_RESOLVE_GLSL
 #define ZVO_SHADERS_VOXELIZE_RESOLVE_GLSL
 
+#include "lib/arithmetic.glsl"
 #include "lib/attribute.glsl"
 #include "lib/bound.glsl"
-#include "lib/divide.glsl"
-#include "lib/normal_code.glsl"
+#include "lib/normal.glsl"
 #include "voxelize/voxelize.h"
 
 // The sum of the fragments' normals.

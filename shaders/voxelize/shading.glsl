@@ -3,8 +3,8 @@
 #ifndef ZVO_SHADERS_VOXELIZE_SHADING_GLSL
 #define ZVO_SHADERS_VOXELIZE_SHADING_GLSL
 
+#include "lib/arithmetic.glsl"
 #include "lib/attribute.glsl"
-#include "lib/divide.glsl"
 #include "voxelize/loads.glsl"
 #include "voxelize/voxelize.h"
 

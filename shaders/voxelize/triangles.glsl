@@ -15,9 +15,7 @@ layout(constant_id = 6) const bool kWideKeys = false; // the octree has more tha
 #include "lib/arrivals.glsl"
 #include "lib/bricks.glsl"
 #include "lib/dispatch.glsl"
-#include "lib/dispatch_args.glsl"
-#include "lib/divide.glsl"
-#include "lib/finite.glsl"
+#include "lib/arithmetic.glsl"
 #include "voxelize/window.glsl"
 #include "voxelize/raster.glsl"
 #define COLOR_BINDING 15

@@ -22,7 +22,7 @@ TreeData octreeOfVoxels(const Grid& grid, std::span<const std::uint64_t> codes);
 /// 8 | blue << 16. Nodes get no attributes.
 void addColors(TreeData& octree, std::span<const std::uint32_t> colors);
 
-/// Octahedral code of v's direction, as shaders/lib/normal_code.glsl makes it. v: components of less than 2^15 in size.
+/// Octahedral code of v's direction, as shaders/lib/normal.glsl makes it. v: components of less than 2^15 in size.
 std::uint32_t octahedralCode(const glm::ivec3& v);
 
 } // namespace zvo

@@ -4,7 +4,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "choose.h"
 #include "lib/dispatch.glsl"
-#include "lib/sobol.glsl"
+#include "lib/sampling.glsl"
 #include "path/face.glsl"
 
 layout(constant_id = 0) const uint kNodeLevels = 5u;

@@ -4,7 +4,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "choose.h"
 #include "lib/dispatch.glsl"
-#include "lib/sobol.glsl"
+#include "lib/sampling.glsl"
 
 layout(local_size_x = 64) in;
 layout(push_constant, scalar) uniform Push

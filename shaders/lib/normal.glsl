@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
-// Octahedral codes of normals, in integers, so that every device packs the same bytes.
-#ifndef ZVO_SHADERS_LIB_NORMAL_CODE_GLSL
-#define ZVO_SHADERS_LIB_NORMAL_CODE_GLSL
+// Normals: octahedral codes, in integers, so that every device packs the same bytes; and the normals of hits.
+#ifndef ZVO_SHADERS_LIB_NORMAL_GLSL
+#define ZVO_SHADERS_LIB_NORMAL_GLSL
 
-#include "lib/divide.glsl"
+#include "lib/arithmetic.glsl"
 #include "shared/octree.h"
+#include "shared/trace.h"
 
 const int kNormalOne = 32767;             // 1 as a snorm16
 const uint kNormalSumBits = 15u;          // components are shortened to this many bits before they are divided
@@ -74,6 +75,23 @@ ivec2 normalCoordinates(uint code)
 ivec3 decodeNormal(uint code)
 {
     return code == kNoNormal ? ivec3(0) : unfoldNormal(normalCoordinates(code), kNormalOne);
+}
+
+// Normal of the face that the ray came in through; against the ray when it started inside.
+vec3 faceNormal(uint face, vec3 direction)
+{
+    vec3 axis = vec3(face == 0u ? 1.0 : 0.0, face == 1u ? 1.0 : 0.0, face == 2u ? 1.0 : 0.0);
+    return face == kFaceInside ? -normalize(direction) : mix(axis, -axis, greaterThan(direction, vec3(0.0)));
+}
+
+// Normal of an attribute, turned round if the surface is seen from behind; face_normal if it has none. At the rim of a
+// surface its normal may point away from the viewer a little without that.
+vec3 shadingNormal(uint code, vec3 face_normal, vec3 direction)
+{
+    if (code == kNoNormal)
+        return face_normal;
+    vec3 normal = normalize(vec3(decodeNormal(code)));
+    return dot(normal, face_normal) < 0.0 && dot(normal, direction) > 0.0 ? -normal : normal;
 }
 
 #endif

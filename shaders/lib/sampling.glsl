@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
-// Random numbers of samples: an Owen-scrambled Sobol sequence of two dimensions, for each pair of dimensions in another
-// order (B. Burley, Practical Hash-based Owen Scrambling, 2020). All in integers: the same numbers on every device.
-#ifndef ZVO_SHADERS_LIB_SOBOL_GLSL
-#define ZVO_SHADERS_LIB_SOBOL_GLSL
+// Random numbers of samples, and directions that are made of them.
+//
+// Numbers: an Owen-scrambled Sobol sequence of two dimensions, for each pair of dimensions in another order (B. Burley,
+// Practical Hash-based Owen Scrambling, 2020). All in integers: the same numbers on every device.
+#ifndef ZVO_SHADERS_LIB_SAMPLING_GLSL
+#define ZVO_SHADERS_LIB_SAMPLING_GLSL
 
 // A hash of 32 bits (C. Wellons, Prospecting for Hash Functions, 2018: lowbias32).
 uint hash(uint x)
@@ -56,6 +58,23 @@ uvec2 sampleBits(uint index, uint seed, uint pair)
 vec2 samplePair(uint index, uint seed, uint pair)
 {
     return vec2(sampleBits(index, seed, pair) >> 8) * (1.0 / 16777216.0);
+}
+
+// Axes orthogonal to a direction of length 1, which is the last one (T. Duff et al., Building an Orthonormal Basis,
+// Revisited, 2017).
+mat3 frameAround(vec3 n)
+{
+    float sign = n.z < 0.0 ? -1.0 : 1.0;
+    float a = -1.0 / (sign + n.z);
+    float b = n.x * n.y * a;
+    return mat3(vec3(1.0 + sign * n.x * n.x * a, sign * b, -sign * n.x), vec3(b, sign + n.y * n.y * a, -n.y), n);
+}
+
+// A direction in such a frame, to the side of its last axis: of even u in [0, 1) and even angles about the axis, they
+// are spread by the cosine with it, which is z.
+vec3 cosineDirection(float u, float angle)
+{
+    return vec3(sqrt(u) * vec2(cos(angle), sin(angle)), sqrt(1.0 - u));
 }
 
 #endif
