@@ -8,7 +8,7 @@
 #include "radiance/kept_faces.h"
 #include "light/map_radiance.glsl"
 #include "light/sun_irradiance.glsl"
-#include "path/face.glsl"
+#include "lib/face.glsl"
 
 // These are parameters of zvo's kernels. Here tables differ, so setKeptLight() sets them.
 struct FaceTable
@@ -22,7 +22,6 @@ FaceTable params;
 #include "radiance/face_table.glsl"
 #include "radiance/kept_light.glsl"
 #include "radiance/light_of_brick.glsl"
-#include "radiance/plane.glsl"
 
 const uint kPointRaysMax = 256u;         // rays of a point: all of their iterations are one invocation's
 const uint kSettledSamples = 8u;         // from which on a face's light counts in full where it is mixed with others'

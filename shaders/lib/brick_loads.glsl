@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Loads of the brick table (shared/bricks.h). The includer has a kernel's parameters as params, with bricks, and defines
-// before:
-//   BRICKS_BINDING    optional: the binding of the table in the kernel's bound form (lib/bound.glsl)
+// Loads of the brick table (shared/bricks.h). What other threads change in the dispatch may be out of date.
+// Needs params.bricks.
+// BRICKS_BINDING (optional): the binding of the table in the kernel's bound form (lib/bound.glsl).
 #ifndef ZVO_SHADERS_LIB_BRICK_LOADS_GLSL
 #define ZVO_SHADERS_LIB_BRICK_LOADS_GLSL
 
@@ -12,14 +12,13 @@
 
 TEXELS_4(BRICKS_BINDING, bricks);
 
-// May be out of date where other threads change the entry.
 BrickEntry loadBrick(uint entry)
 {
     uvec4 words = texelFetch(texels4_bricks, int(entry));
     return BrickEntry(words.x, words.y, words.z, words.w);
 }
 
-// Likewise, of an entry of a table of `capacity` entries.
+// What is mixed of the leaf in an entry of a table of `capacity` entries.
 MixedVoxels loadMixed(uint capacity, uint entry)
 {
     uvec4 words = texelFetch(texels4_bricks, int(capacity + entry));

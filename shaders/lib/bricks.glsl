@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Lock-free find and insert in the brick table (shared/bricks.h). Linear probing; entries are never removed.
-// The includer has a kernel's parameters as params, with bricks and brick_mask, and defines before:
-//   BRICKS_BINDING        optional: the first of two bindings for the table in the kernel's bound form (lib/bound.glsl)
+// Needs the constant kWideKeys, params.bricks and params.brick_mask.
+// BRICKS_BINDING (optional): the first of two bindings for the table in the kernel's bound form (lib/bound.glsl).
 //
 // Why wide keys need neither 64-bit atomics nor waiting. An insert takes an entry's two words in order: it writes its
 // lower word where the first is 0, and goes on to the next entry if that holds another one; then it does the same with

@@ -87,12 +87,13 @@ void main()
     leaf.base_lo += at.voxels;
     leaf.base_hi += at.voxels;
     uint voxel_index = childIndex(leaf, cell);
+    uvec2_ConstPtr words = params.tree.data[0].emission_words;
     bool emits = false;
     if (hasChild(leaf, cell))
-        emits = isEmissive(voxel_index);
+        emits = isEmissive(words, voxel_index);
     if (emits)
     {
-        uint index = emissionIndex(uvec2_ConstPtr(uint64_t(params.tree.data[0].emission_words)), voxel_index);
+        uint index = emissionIndex(words, voxel_index);
         s_luminance[cell] =
             params.tree.data[0].emission_scale * luminance(decodeRgb9e5(params.tree.data[0].emission.data[index]));
         atomicOr(s_emissive[cell >> 5], 1u << (cell & 31u));

@@ -35,7 +35,7 @@ bool hasEmissiveVoxels(RankedNode child)
     uint first = outermostVoxel(child, params.level + 1u, true);
     uint last = outermostVoxel(child, params.level + 1u, false);
     uvec2_ConstPtr words = uvec2_ConstPtr(uint64_t(params.tree.data[0].emission_words));
-    return emissionIndex(words, first) != emissionIndex(words, last) + (isEmissive(last) ? 1u : 0u);
+    return emissionIndex(words, first) != emissionIndex(words, last) + (isEmissive(words, last) ? 1u : 0u);
 }
 
 void main()

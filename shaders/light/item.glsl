@@ -56,9 +56,4 @@ uint outermostVoxel(RankedNode at, uint level, bool first)
     return childIndex(leaf, outermostCell(leaf, first)) + at.voxels;
 }
 
-bool isEmissive(uint voxel)
-{
-    return ((params.tree.data[0].emission_words.data[voxel >> 5].x >> (voxel & 31u)) & 1u) != 0u;
-}
-
 #endif

@@ -3,7 +3,7 @@
 #ifndef ZVO_SHADERS_PATH_CHOSEN_GLSL
 #define ZVO_SHADERS_PATH_CHOSEN_GLSL
 
-#include "path/face.glsl"
+#include "lib/face.glsl"
 #include "path/path.h"
 #include "path/weights.glsl"
 

@@ -4,11 +4,11 @@
 #ifndef ZVO_SHADERS_PATH_EMITTER_GLSL
 #define ZVO_SHADERS_PATH_EMITTER_GLSL
 
+#include "lib/emission.glsl"
+#include "lib/face.glsl"
 #include "lib/hit.glsl"
 #include "light/choose.glsl"
 #include "light/importance.glsl"
-#include "path/emission.glsl"
-#include "path/face.glsl"
 #include "path/path.h"
 #include "path/weights.glsl"
 
@@ -25,7 +25,7 @@ vec3 lightOfHit(PathState state, Ray ray, Hit hit)
         float area_density = lightProbability(from, hitCell(hit), normal) * exp2(4.0 * float(kNodeLevels));
         density = state.kinds.z * area_density * hit.t * hit.t / max(cosine, 1e-20);
     }
-    return state.throughput * (emissionOf(hit.index) * chanceWeight(state, density));
+    return state.throughput * (emissionOf(params.tree, hit.index) * chanceWeight(state, density));
 }
 
 #endif

@@ -5,10 +5,10 @@
 #ifndef ZVO_SHADERS_PATH_LEAVE_GLSL
 #define ZVO_SHADERS_PATH_LEAVE_GLSL
 
+#include "lib/face.glsl"
 #include "lib/ray.glsl"
 #include "lib/sampling.glsl"
 #include "light/importance.glsl"
-#include "path/face.glsl"
 #include "path/numbers.glsl"
 #include "path/path.h"
 

@@ -4,9 +4,9 @@
 #ifndef ZVO_SHADERS_PATH_NEXT_RAY_GLSL
 #define ZVO_SHADERS_PATH_NEXT_RAY_GLSL
 
+#include "lib/face.glsl"
 #include "lib/hit.glsl"
 #include "lib/sampling.glsl"
-#include "path/face.glsl"
 #include "path/hit_voxel.glsl"
 #include "path/leave.glsl"
 #include "path/numbers.glsl"

@@ -5,6 +5,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "path/path.h"
 #include "lib/dispatch.glsl"
+#include "lib/emission.glsl"
 #include "lib/hit.glsl"
 #include "lib/ray.glsl"
 #include "path/state.glsl"
@@ -23,7 +24,6 @@ layout(push_constant, scalar) uniform Push
 };
 
 #define LIGHT_NODES params.light_nodes
-#include "path/emitting_voxel.glsl"
 #include "path/hit_voxel.glsl"
 #include "path/leave.glsl"
 #include "path/list_chosen.glsl"
@@ -47,7 +47,7 @@ void main()
         params.numbers.data[kListMisses * params.batch + miss] = i;
     if (kEmission)
     {
-        bool emits = hits && isEmitter(hits ? hit.index : 0u);
+        bool emits = hits && isEmissive(params.emission_words, hits ? hit.index : 0u);
         uint emitter = appendTo(params.bounce, kListEmitters, emits);
         if (emits)
             params.numbers.data[kListEmitters * params.batch + emitter] = i;

@@ -41,7 +41,6 @@ layout(push_constant, scalar) uniform Push
 #define LIGHT_NODES params.light_nodes
 #include "path/camera_ray.glsl"
 #include "path/emitter.glsl"
-#include "path/emitting_voxel.glsl"
 #include "path/feature_sum.glsl"
 #include "path/map_light.glsl"
 #include "path/miss.glsl"
@@ -128,7 +127,7 @@ bool advance(Ray ray, Hit hit, inout Path path, inout Shadow shadow)
 {
     if (isMiss(hit))
         path.radiance += lightOfMiss(path.state, ray);
-    else if (kEmission && isEmitter(hit.index))
+    else if (kEmission && isEmissive(params.emission_words, hit.index))
         path.radiance += lightOfHit(path.state, ray, hit);
     if (kFeatures && path.bounce == 0u)
     {

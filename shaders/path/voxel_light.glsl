@@ -5,16 +5,15 @@
 #ifndef ZVO_SHADERS_PATH_VOXEL_LIGHT_GLSL
 #define ZVO_SHADERS_PATH_VOXEL_LIGHT_GLSL
 
+#include "lib/emission.glsl"
+#include "lib/face.glsl"
 #include "lib/hit.glsl"
 #include "lib/sampling.glsl"
 #include "light/choose.glsl"
 #include "light/importance.glsl"
 #include "path/chosen.glsl"
-#include "path/emission.glsl"
-#include "path/face.glsl"
 #include "path/numbers.glsl"
 #include "path/path.h"
-#include "path/point_of_face.glsl"
 
 // A point of a face of an emissive voxel, for a path that leaves a face at origin.
 ChosenDirection chooseVoxelLight(PathState state, vec3 origin, uint bounce)
@@ -35,7 +34,7 @@ ChosenDirection chooseVoxelLight(PathState state, vec3 origin, uint bounce)
     if (cosine > 0.0 && light.probability > 0.0)
     {
         chosen.density = state.kinds.z * light.probability / (edge * edge) * square / cosine;
-        chosen.light = emissionOf(light.voxel);
+        chosen.light = emissionOf(params.tree, light.voxel);
     }
     return chosen;
 }

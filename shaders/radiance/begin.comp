@@ -5,9 +5,9 @@
 #include "radiance/radiance.h"
 #include "lib/bound.glsl"
 #include "lib/dispatch.glsl"
-#include "path/face.glsl"
+#include "lib/face.glsl"
+#include "lib/ray.glsl"
 #include "path/numbers.glsl"
-#include "path/point_of_face.glsl"
 #include "path/state.glsl"
 
 layout(constant_id = 0) const uint kNodeLevels = 5u;

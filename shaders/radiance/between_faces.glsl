@@ -4,11 +4,11 @@
 #ifndef ZVO_SHADERS_RADIANCE_BETWEEN_FACES_GLSL
 #define ZVO_SHADERS_RADIANCE_BETWEEN_FACES_GLSL
 
+#include "lib/face.glsl"
 #include "lib/hit.glsl"
 #include "radiance/face_table.glsl"
 #include "radiance/kept_faces.h"
 #include "radiance/kept_light.glsl"
-#include "radiance/plane.glsl"
 
 // The light at a place on a face, from those four faces with the same normal in the same plane whose middles are around
 // it, as far as they keep any; then w is more than 0, and xyz are to be divided by it. Likewise between bricks. cell:

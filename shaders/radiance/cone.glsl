@@ -120,7 +120,7 @@ vec3 emissionInNode(TreeTable_ConstPtr tree, Hit hit, zvo_Surface node, vec3 ori
     vec3 towards = node.middle + node.edge * place - origin;
     vec2 times = timesOfCube(node.middle, node.edge, origin, towards);
     Hit voxel = zvo_trace(tree, origin, towards, max(times.x, 0.0), times.y);
-    return zvo_isHit(voxel) ? emissionOf(tree, voxel.index) : vec3(0.0);
+    return zvo_isHit(voxel) ? emissionOrNone(tree, voxel.index) : vec3(0.0);
 }
 
 // A ray that goes on at t may be in a node that it has entered before, and of which it has met smaller ones: as a whole

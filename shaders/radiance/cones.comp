@@ -21,7 +21,7 @@ layout(constant_id = 2) const bool kOrthographic = false;
 #include "trace/any_tree.glsl"
 #include "light/map_radiance.glsl"
 #include "light/sun_irradiance.glsl"
-#include "path/face.glsl"
+#include "lib/face.glsl"
 #include "path/strip.glsl"
 #include "radiance/seen_sum.glsl"
 

@@ -6,6 +6,7 @@
 #include "lib/bound.glsl"
 #include "lib/camera.glsl"
 #include "lib/dispatch.glsl"
+#include "lib/emission.glsl"
 #include "lib/hit.glsl"
 #include "light/environment.glsl"
 #include "light/map_radiance.glsl"
@@ -22,7 +23,6 @@ layout(push_constant, scalar) uniform Push
 };
 
 #define HITS_BINDING 0
-#include "path/emission.glsl"
 #include "path/lists.glsl"
 #include "radiance/seen_hit.glsl"
 
@@ -47,6 +47,6 @@ void main()
         direction += rayOffset(pixelOffset(pixel, size), params.half_pixel_x, params.half_pixel_y);
     vec3 light = outside(normalize(direction));
     if (kEmission && !isMiss(hit))
-        light = emissionOf(hit.index);
+        light = emissionOf(params.tree, hit.index);
     addRadiance(params.sums, number, light);
 }

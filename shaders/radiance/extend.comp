@@ -5,8 +5,8 @@
 #include "radiance/radiance.h"
 #include "lib/bound.glsl"
 #include "lib/dispatch.glsl"
+#include "lib/hit.glsl"
 #include "lib/ray.glsl"
-#include "path/face.glsl"
 #include "path/state.glsl"
 
 layout(constant_id = 0) const uint kNodeLevels = 5u;

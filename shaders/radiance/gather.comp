@@ -7,8 +7,8 @@
 #include "radiance/radiance.h"
 #include "lib/bound.glsl"
 #include "lib/dispatch.glsl"
+#include "lib/emission.glsl"
 #include "lib/ray.glsl"
-#include "path/face.glsl"
 #include "path/state.glsl"
 
 layout(constant_id = 0) const uint kFormat = kFormat8; // of attributes
@@ -25,8 +25,8 @@ const uint kNodeLevels = 0u; // no hit is a node's
 #define FACES_BINDING 0
 #define HITS_BINDING 2
 #define STATES_BINDING 1
-#include "path/emitting_voxel.glsl"
 #include "path/hit_voxel.glsl"
+#include "radiance/face_table.glsl"
 #include "radiance/hit_loads.glsl"
 #include "radiance/insert_face.glsl"
 #include "radiance/light_of_neighbors.glsl"
@@ -47,7 +47,7 @@ void main()
         params.numbers.data[kListMisses * params.batch + miss] = i;
     if (kEmission)
     {
-        bool emits = hits && isEmitter(hits ? hit.index : 0u);
+        bool emits = hits && isEmissive(params.emission_words, hits ? hit.index : 0u);
         uint emitter = appendTo(ray, kListEmitters, emits);
         if (emits)
             params.numbers.data[kListEmitters * params.batch + emitter] = i;

@@ -4,12 +4,12 @@
 #ifndef ZVO_SHADERS_RADIANCE_LIGHT_OF_NEIGHBORS_GLSL
 #define ZVO_SHADERS_RADIANCE_LIGHT_OF_NEIGHBORS_GLSL
 
+#include "lib/face.glsl"
 #include "lib/hit.glsl"
 #include "radiance/face_key.glsl"
 #include "radiance/face_table.glsl"
 #include "radiance/kept_faces.h"
 #include "radiance/kept_light.glsl"
-#include "radiance/plane.glsl"
 
 // The mean light of the faces that touch a face in its plane, up to four, as far as they keep any. Their light was not
 // behind a wall, since the voxel over each was empty when it arrived. is_lit: whether any keeps light.

@@ -7,7 +7,7 @@
 #include "lib/bound.glsl"
 #include "lib/camera.glsl"
 #include "lib/dispatch.glsl"
-#include "path/face.glsl"
+#include "lib/emission.glsl"
 #include "path/strip.glsl"
 #include "radiance/seen_sum.glsl"
 
@@ -26,7 +26,6 @@ layout(push_constant, scalar) uniform Push
 
 #define FACES_BINDING 0
 #define HITS_BINDING 1
-#include "path/emitting_voxel.glsl"
 #include "path/hit_voxel.glsl"
 #include "path/lists.glsl"
 #include "radiance/between_faces.glsl"
@@ -46,7 +45,7 @@ void main()
     if (kEmission && kFormat == kFormat8)
         is_direct = is_direct || (exists && ((stored.color >> 24) & kAttributeEmissive) != 0u);
     else if (kEmission)
-        is_direct = is_direct || (exists && isEmitter(hits ? hit.index : 0u));
+        is_direct = is_direct || (exists && isEmissive(params.emission_words, hits ? hit.index : 0u));
     uint place = appendTo(0u, kListMisses, is_direct);
     if (is_direct)
         params.direct.data[place] = number;

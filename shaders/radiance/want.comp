@@ -7,8 +7,8 @@
 #include "lib/bound.glsl"
 #include "lib/camera.glsl"
 #include "lib/dispatch.glsl"
+#include "lib/face.glsl"
 #include "lib/hit.glsl"
-#include "path/face.glsl"
 
 layout(constant_id = 0) const bool kOrthographic = false;
 layout(constant_id = 1) const uint kTurns = 1u; // pixels of each 2x2 that take part

@@ -238,13 +238,12 @@ vec3 zvo_position(TreeTable_ConstPtr tree, Hit hit, vec3 origin, vec3 direction)
 }
 
 // The radiance of a voxel that may emit.
-vec3 emissionOf(TreeTable_ConstPtr tree, uint voxel)
+vec3 emissionOrNone(TreeTable_ConstPtr tree, uint voxel)
 {
     uvec2_ConstPtr words = tree.data[0].emission_words;
     vec3 radiance = vec3(0.0);
-    if (uint64_t(words) != 0ul && ((words.data[voxel >> 5].x >> (voxel & 31u)) & 1u) != 0u)
-        radiance =
-            tree.data[0].emission_scale * decodeRgb9e5(tree.data[0].emission.data[emissionIndex(words, voxel)]);
+    if (uint64_t(words) != 0ul && isEmissive(words, voxel))
+        radiance = emissionOf(tree, voxel);
     return radiance;
 }
 
@@ -274,7 +273,7 @@ zvo_Surface zvo_surface(TreeTable_ConstPtr tree, Hit hit, vec3 direction)
         surface.is_dynamic =
             hit.index >= (surface.is_voxel ? tree.data[0].first_dynamic_voxel : tree.data[0].first_dynamic_node);
         if (surface.is_voxel && (format != kFormat8 || ((stored.color >> 24) & kAttributeEmissive) != 0u))
-            surface.emission = emissionOf(tree, hit.index);
+            surface.emission = emissionOrNone(tree, hit.index);
     }
     return surface;
 }

@@ -138,7 +138,7 @@ LayerVoxel nextLayerVoxel(MergedVoxel voxel, LayerVoxel layer_voxel)
 bool emitsIn(LayerVoxel layer_voxel)
 {
     return kEmits && uint64_t(layer_voxel.layer.emission_words) != 0ul &&
-           ((layer_voxel.layer.emission_words.data[layer_voxel.voxel >> 5].x >> (layer_voxel.voxel & 31u)) & 1u) != 0u;
+           isEmissive(layer_voxel.layer.emission_words, layer_voxel.voxel);
 }
 
 uint emissionIndexIn(LayerVoxel layer_voxel)

@@ -4,8 +4,8 @@
 #extension GL_GOOGLE_include_directive : require
 #include "choose.h"
 #include "lib/dispatch.glsl"
+#include "lib/face.glsl"
 #include "lib/sampling.glsl"
-#include "path/face.glsl"
 
 layout(constant_id = 0) const uint kNodeLevels = 5u;
 layout(constant_id = 1) const bool kChoose = false;

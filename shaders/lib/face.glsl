@@ -1,7 +1,30 @@
 // SPDX-License-Identifier: MIT
-// The plane of a face, in which faces with the same normal lie side by side.
-#ifndef ZVO_SHADERS_RADIANCE_PLANE_GLSL
-#define ZVO_SHADERS_RADIANCE_PLANE_GLSL
+// Faces of voxels: their normals, numbered as in LightBrick::exposed, points of them, and the plane in which faces with the
+// same normal lie side by side.
+#ifndef ZVO_SHADERS_LIB_FACE_GLSL
+#define ZVO_SHADERS_LIB_FACE_GLSL
+
+// The normal with a number.
+vec3 normalAxis(uint normal)
+{
+    float side = normal < 3u ? 1.0 : -1.0;
+    uint axis = normal % 3u;
+    return vec3(axis == 0u ? side : 0.0, axis == 1u ? side : 0.0, axis == 2u ? side : 0.0);
+}
+
+// The normal of the face of a hit, towards where the ray came from. The ray must not have started in the voxel.
+uint normalOfHit(uint face, vec3 direction)
+{
+    float along = face == 0u ? direction.x : face == 1u ? direction.y : direction.z;
+    return face + (along < 0.0 ? 0u : 3u);
+}
+
+// A point of a face of a voxel with this edge, by two numbers in [0, 1).
+vec3 pointOfFace(uvec3 cell, uint normal, float edge, vec2 u)
+{
+    vec3 across = normal % 3u == 0u ? vec3(0.0, u) : normal % 3u == 1u ? vec3(u.x, 0.0, u.y) : vec3(u, 0.0);
+    return 1.0 + edge * (vec3(cell) + max(normalAxis(normal), 0.0) + across);
+}
 
 // A step to another face of the plane, along its two axes in the order x, y, z.
 ivec3 stepInPlane(uint normal, ivec2 steps)
