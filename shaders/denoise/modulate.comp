@@ -8,8 +8,7 @@
 #include "denoise/guide.glsl"
 #include "lib/color.glsl"
 #include "lib/dispatch.glsl"
-#include "path/features.glsl"
-#include "path/strip.glsl"
+#include "path/pixel.glsl"
 
 layout(local_size_x = kPathGroup) in;
 layout(push_constant, scalar) uniform Push

@@ -5,8 +5,8 @@
 #include "path/path.h"
 #include "lib/dispatch.glsl"
 #include "lib/ray.glsl"
+#include "path/pixel.glsl"
 #include "path/state.glsl"
-#include "path/strip.glsl"
 
 layout(constant_id = 0) const bool kOrthographic = false;
 

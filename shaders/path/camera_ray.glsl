@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
-// Rays from the camera. The includer includes path/path.h, lib/camera.glsl, lib/ray.glsl, lib/sobol.glsl and
-// path/numbers.glsl before and declares kOrthographic.
+// Rays from the camera.
+// Needs the constant kOrthographic.
 #ifndef ZVO_SHADERS_PATH_CAMERA_RAY_GLSL
 #define ZVO_SHADERS_PATH_CAMERA_RAY_GLSL
 
 #include "lib/camera.glsl"
 #include "lib/ray.glsl"
 #include "lib/sampling.glsl"
-#include "path/numbers.glsl"
 #include "path/path.h"
+#include "path/state.glsl"
 
 // The seed of a pixel's random numbers.
 uint seedOfPixel(PathView view, uvec2 pixel)

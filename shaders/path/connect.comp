@@ -5,7 +5,7 @@
 #include "path/path.h"
 #include "lib/dispatch.glsl"
 #include "lib/hit.glsl"
-#include "path/reach.glsl"
+#include "path/state.glsl"
 
 layout(constant_id = 0) const bool kNotes = false;
 

@@ -4,7 +4,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "path/path.h"
 #include "lib/dispatch.glsl"
-#include "path/strip.glsl"
+#include "path/pixel.glsl"
 #include "trace/texel.glsl"
 
 layout(constant_id = 0) const uint kTexels = kTexelRgba8;

@@ -20,8 +20,8 @@ layout(push_constant, scalar) uniform Push
 
 #define LIGHT_BRICKS params.light_bricks
 #define LIGHT_NODES params.light_nodes
-#include "path/emitter.glsl"
 #include "path/lists.glsl"
+#include "path/voxel_light.glsl"
 
 void main()
 {

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-// Sums of what the camera's rays see. The includer includes path/features.glsl and trace/surface.glsl before and
-// declares params.attributes and params.features.
+// Sums of what the camera's rays see.
+// Needs the constants kNodeLevels and kFormat, params.attributes and params.features.
 #ifndef ZVO_SHADERS_PATH_FEATURE_SUM_GLSL
 #define ZVO_SHADERS_PATH_FEATURE_SUM_GLSL
 
 #include "lib/hit.glsl"
 #include "lib/normal.glsl"
-#include "path/features.glsl"
 #include "path/path.h"
+#include "path/pixel.glsl"
 #include "trace/surface.glsl"
 
 // Adds what the ray of a sample sees. direct: radiance that it has met.

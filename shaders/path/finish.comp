@@ -4,7 +4,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "path/path.h"
 #include "lib/dispatch.glsl"
-#include "path/sum.glsl"
+#include "path/pixel.glsl"
 
 layout(constant_id = 0) const bool kFeatures = false;
 

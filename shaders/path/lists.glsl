@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Lists that grow while kernels run (path.h). The includer includes path/path.h before and declares params.lists.
+// Lists that grow while kernels run (path/path.h).
+// Needs params.lists.
 #ifndef ZVO_SHADERS_PATH_LISTS_GLSL
 #define ZVO_SHADERS_PATH_LISTS_GLSL
 

@@ -1,15 +1,28 @@
 // SPDX-License-Identifier: MIT
-// Choosing light from outside of the grid. The includer includes path/path.h, lib/sobol.glsl, light/environment.glsl,
-// path/numbers.glsl and path/chosen.glsl before and declares params.
+// Light from outside of the grid: what a ray meets, and what is chosen.
+// Needs the constant kSampling, params.environment and params.sample_index.
 #ifndef ZVO_SHADERS_PATH_MAP_LIGHT_GLSL
 #define ZVO_SHADERS_PATH_MAP_LIGHT_GLSL
 
 #include "lib/sampling.glsl"
 #include "light/environment.glsl"
 #include "light/map_radiance.glsl"
-#include "path/chosen.glsl"
-#include "path/numbers.glsl"
+#include "path/chosen_light.glsl"
 #include "path/path.h"
+#include "path/state.glsl"
+
+// What a ray that has left the grid brings to the pixel.
+vec3 lightOfMiss(PathState state, Ray ray)
+{
+    vec3 direction = normalize(1.0 / ray.inverse_direction);
+    float map_density = 0.0;
+    if (kSampling == kSampleBoth)
+        map_density = state.kinds.x * mapDensity(params.environment, state.normal, direction);
+    vec3 light = mapRadiance(params.environment, direction) * chanceWeight(state, map_density);
+    if (meetsSun(params.environment, direction))
+        light += params.environment.data[0].sun * chanceWeight(state, state.kinds.y * sunDensity(params.environment));
+    return state.throughput * light;
+}
 
 // A direction to the map, or to the sun, for a path that leaves a face.
 ChosenDirection chooseMapLight(PathState state, uint bounce)

@@ -16,7 +16,7 @@ layout(push_constant, scalar) uniform Push
 };
 
 #include "path/lists.glsl"
-#include "path/miss.glsl"
+#include "path/map_light.glsl"
 
 void main()
 {

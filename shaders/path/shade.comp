@@ -24,11 +24,9 @@ layout(push_constant, scalar) uniform Push
 };
 
 #define LIGHT_NODES params.light_nodes
-#include "path/hit_voxel.glsl"
-#include "path/leave.glsl"
-#include "path/list_chosen.glsl"
 #include "path/lists.glsl"
 #include "path/next_ray.glsl"
+#include "trace/surface.glsl"
 
 void main()
 {
@@ -40,7 +38,7 @@ void main()
     Ray ray = loadRay(params.rays, i);
     Hit hit = loadHit(params.hits, i);
     bool hits = exists && !isMiss(hit);
-    Attribute stored = attributeAt(hits, hit);
+    Attribute stored = attributeAt(hits, hit, params.attributes);
 
     uint miss = appendTo(params.bounce, kListMisses, exists && !hits);
     if (exists && !hits)
@@ -55,7 +53,7 @@ void main()
     if (kLast)
         return;
 
-    NextRay next = nextRay(state, ray, hits, hit, stored, params.bounce);
+    NextRay next = nextRay(state, ray, hits, hit, albedoOf(stored), kRoulette, params.bounce);
     uint next_path = appendTo(params.bounce + 1u, kListPaths, next.exists);
     if (next.exists)
     {
@@ -66,5 +64,5 @@ void main()
     // A light to look for.
     if (kSampling == kSampleChance)
         return;
-    listChosen(next, next_path, params.bounce);
+    listChosen(params.numbers, params.batch, next, next_path, params.bounce);
 }

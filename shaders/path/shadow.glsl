@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-// Lists of shadow rays. The includer includes path/path.h, lib/ray.glsl, path/lists.glsl, path/state.glsl and
-// path/chosen.glsl before and declares params.
+// Lists of shadow rays.
+// Needs the constant kSampling, params.bounce, params.lists, params.shadow_rays and params.shadow_states.
 #ifndef ZVO_SHADERS_PATH_SHADOW_GLSL
 #define ZVO_SHADERS_PATH_SHADOW_GLSL
 
 #include "lib/ray.glsl"
-#include "path/chosen.glsl"
+#include "path/chosen_light.glsl"
 #include "path/lists.glsl"
 #include "path/path.h"
 

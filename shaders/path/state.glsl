@@ -1,10 +1,20 @@
 // SPDX-License-Identifier: MIT
-// States of paths, and their loads and stores as 64-bit words, as those of rays. The includer includes path/path.h
-// before.
+// The state of a path (path/path.h): the random numbers that it takes, and its loads and stores as 64-bit words, as those
+// of rays; and where its shadow rays end.
 #ifndef ZVO_SHADERS_PATH_STATE_GLSL
 #define ZVO_SHADERS_PATH_STATE_GLSL
 
+#include "lib/hit.glsl"
 #include "path/path.h"
+
+// Pairs of random numbers of a path (lib/sampling.glsl): the camera takes the first two, each bounce kPathPairs.
+const uint kPairPixel = 0u;
+const uint kPairLens = 1u;
+const uint kPairDirection = 2u; // of the next ray
+const uint kPairChoice = 3u;    // of a light
+const uint kPairPoint = 4u;     // of the light
+const uint kPairOther = 5u;     // kind of light, roulette
+const uint kPathPairs = 4u;     // of a bounce
 
 // The state of a path that begins.
 PathState stateOfCamera(uint slot, uint seed)
@@ -31,6 +41,12 @@ void storeState(PathState_Ptr states, uint i, PathState state)
     words.data[5u * i + 2u] = packUint2x32(uvec2(state.seed, state.normal));
     words.data[5u * i + 3u] = packUint2x32(floatBitsToUint(vec2(state.density, state.kinds.x)));
     words.data[5u * i + 4u] = packUint2x32(floatBitsToUint(state.kinds.yz));
+}
+
+// Whether nothing is in the way of a shadow ray that has met this. target: as in ShadowState.
+bool reachesLight(Hit hit, uvec2 target)
+{
+    return target == uvec2(kNoTarget) ? isMiss(hit) : !isMiss(hit) && hit.where == target;
 }
 
 #endif

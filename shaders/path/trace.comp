@@ -17,10 +17,7 @@
 #include "lib/bound.glsl"
 #include "lib/dispatch.glsl"
 #include "lib/traverse.glsl"
-#include "path/reach.glsl"
-#include "path/state.glsl"
-#include "path/strip.glsl"
-#include "path/sum.glsl"
+#include "path/pixel.glsl"
 
 layout(constant_id = 4) const bool kOrthographic = false;
 layout(constant_id = 5) const uint kFormat = kFormat8;      // of attributes
@@ -40,10 +37,9 @@ layout(push_constant, scalar) uniform Push
 #define LIGHT_BRICKS params.light_bricks
 #define LIGHT_NODES params.light_nodes
 #include "path/camera_ray.glsl"
-#include "path/emitter.glsl"
+#include "path/chosen_light.glsl"
 #include "path/feature_sum.glsl"
 #include "path/map_light.glsl"
-#include "path/miss.glsl"
 #include "path/next_ray.glsl"
 #include "path/voxel_light.glsl"
 #include "trace/hit_rank.glsl"
@@ -139,7 +135,10 @@ bool advance(Ray ray, Hit hit, inout Path path, inout Shadow shadow)
     NextRay next;
     next.exists = false;
     if (!isMiss(hit) && path.bounce < params.bounces)
-        next = nextRay(path.state, ray, true, hit, attributeAt(true, hit), path.bounce);
+        {
+        vec3 albedo = albedoOf(attributeAt(true, hit, params.attributes));
+        next = nextRay(path.state, ray, true, hit, albedo, kRoulette, path.bounce);
+    }
     if (next.exists)
     {
         if (kSampling != kSampleChance)

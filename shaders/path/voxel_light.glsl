@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Choosing light of voxels. The includer includes path/path.h, lib/hit.glsl, lib/sobol.glsl, light/choose.glsl,
-// path/emission.glsl, path/face.glsl, path/numbers.glsl, path/point_of_face.glsl and path/chosen.glsl before and declares
-// params.
+// Light of voxels: what a ray meets, and what is chosen.
+// Needs the constants kNodeLevels, kByPower and kSampling, params.tree, params.sample_index, and what light/choose.glsl says.
 #ifndef ZVO_SHADERS_PATH_VOXEL_LIGHT_GLSL
 #define ZVO_SHADERS_PATH_VOXEL_LIGHT_GLSL
 
@@ -11,9 +10,25 @@
 #include "lib/sampling.glsl"
 #include "light/choose.glsl"
 #include "light/importance.glsl"
-#include "path/chosen.glsl"
-#include "path/numbers.glsl"
+#include "path/chosen_light.glsl"
 #include "path/path.h"
+#include "path/state.glsl"
+
+// What a ray that has hit an emissive voxel brings to the pixel.
+vec3 lightOfHit(PathState state, Ray ray, Hit hit)
+{
+    vec3 direction = normalize(1.0 / ray.inverse_direction);
+    float density = 0.0;
+    if (kSampling == kSampleBoth && hitFace(hit) != kFaceInside)
+    {
+        uint normal = normalOfHit(hitFace(hit), direction);
+        LitPlace from = LitPlace(ray.origin, normalAxis(state.normal));
+        float cosine = abs(dot(normalAxis(normal), direction));
+        float area_density = lightProbability(from, hitCell(hit), normal) * exp2(4.0 * float(kNodeLevels));
+        density = state.kinds.z * area_density * hit.t * hit.t / max(cosine, 1e-20);
+    }
+    return state.throughput * (emissionOf(params.tree, hit.index) * chanceWeight(state, density));
+}
 
 // A point of a face of an emissive voxel, for a path that leaves a face at origin.
 ChosenDirection chooseVoxelLight(PathState state, vec3 origin, uint bounce)

@@ -7,7 +7,7 @@
 #include "lib/dispatch.glsl"
 #include "lib/face.glsl"
 #include "lib/ray.glsl"
-#include "path/numbers.glsl"
+#include "lib/sampling.glsl"
 #include "path/state.glsl"
 
 layout(constant_id = 0) const uint kNodeLevels = 5u;
@@ -22,9 +22,8 @@ layout(push_constant, scalar) uniform Push
 #define FACES_BINDING 0
 #define LIGHT_NODES params.light_nodes
 #define STATES_BINDING 1
-#include "path/leave.glsl"
-#include "path/list_chosen.glsl"
 #include "path/lists.glsl"
+#include "path/next_ray.glsl"
 #include "radiance/face_key.glsl"
 #include "radiance/list_brick.glsl"
 
@@ -54,5 +53,5 @@ void main()
     }
 
     listBrick(cell, face_normal, 1u, exists);
-    listChosen(next, path, 0u);
+    listChosen(params.numbers, params.batch, next, path, 0u);
 }

@@ -22,8 +22,7 @@ layout(constant_id = 2) const bool kOrthographic = false;
 #include "light/map_radiance.glsl"
 #include "light/sun_irradiance.glsl"
 #include "lib/face.glsl"
-#include "path/strip.glsl"
-#include "radiance/seen_sum.glsl"
+#include "path/pixel.glsl"
 
 layout(local_size_x = kRadianceGroup) in;
 layout(push_constant, scalar) uniform Push

@@ -10,8 +10,7 @@
 #include "lib/hit.glsl"
 #include "light/environment.glsl"
 #include "light/map_radiance.glsl"
-#include "path/strip.glsl"
-#include "radiance/seen_sum.glsl"
+#include "path/pixel.glsl"
 
 layout(constant_id = 0) const bool kOrthographic = false;
 layout(constant_id = 1) const bool kEmission = false; // there are emissive voxels

@@ -5,6 +5,7 @@
 #include "radiance/radiance.h"
 #include "lib/bound.glsl"
 #include "lib/dispatch.glsl"
+#include "lib/face.glsl"
 #include "lib/hit.glsl"
 #include "lib/ray.glsl"
 #include "path/state.glsl"
@@ -19,16 +20,13 @@ layout(push_constant, scalar) uniform Push
     RadianceExtendParams params;
 };
 
-const bool kRoulette = false;
 #define FACES_BINDING 0
 #define LIGHT_NODES params.light_nodes
 #define STATES_BINDING 1
-#include "path/hit_voxel.glsl"
-#include "path/leave.glsl"
-#include "path/list_chosen.glsl"
 #include "path/lists.glsl"
 #include "path/next_ray.glsl"
 #include "radiance/light_of_neighbors.glsl"
+#include "trace/surface.glsl"
 
 void main()
 {
@@ -39,18 +37,18 @@ void main()
     PathState state = loadState(params.path_states, i);
     Ray ray = loadRay(params.rays, i);
     Hit hit = loadHit(params.hits, i);
-    Attribute stored = attributeAt(exists, hit);
+    Attribute stored = attributeAt(exists, hit, params.attributes);
     bool is_lit;
     vec3 light = lightOfNeighbors(hitCell(hit), normalOfHit(hitFace(hit), ray.inverse_direction), is_lit);
     if (exists && is_lit)
         params.radiance.data[state.slot] += state.throughput * albedoOf(stored) * light;
 
-    NextRay next = nextRay(state, ray, exists && !is_lit, hit, stored, 1u);
+    NextRay next = nextRay(state, ray, exists && !is_lit, hit, albedoOf(stored), false, 1u);
     uint path = appendTo(1u, kListPaths, next.exists);
     if (next.exists)
     {
         storeRay(params.next_rays, path, next.ray);
         storeState(params.next_states, path, next.state);
     }
-    listChosen(next, path, 1u);
+    listChosen(params.numbers, params.batch, next, path, 1u);
 }

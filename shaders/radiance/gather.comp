@@ -25,12 +25,12 @@ const uint kNodeLevels = 0u; // no hit is a node's
 #define FACES_BINDING 0
 #define HITS_BINDING 2
 #define STATES_BINDING 1
-#include "path/hit_voxel.glsl"
 #include "radiance/face_table.glsl"
 #include "radiance/hit_loads.glsl"
 #include "radiance/insert_face.glsl"
 #include "radiance/light_of_neighbors.glsl"
 #include "radiance/want_face.glsl"
+#include "trace/surface.glsl"
 
 void main()
 {
@@ -74,7 +74,7 @@ void main()
             PathState state = PathState(vec3(1.0), i, 0u, 0u, 0.0, vec3(0.0));
             if (kEnds)
                 state = loadState(params.path_states, i);
-            params.radiance.data[state.slot] += state.throughput * albedoOf(attributeAt(true, hit)) * light;
+            params.radiance.data[state.slot] += state.throughput * albedoOf(attributeAt(true, hit, params.attributes)) * light;
         }
     }
     wantFace(slot, 0u, wantedList(params.frame + 1u));

@@ -8,8 +8,8 @@
 #include "lib/camera.glsl"
 #include "lib/dispatch.glsl"
 #include "lib/emission.glsl"
-#include "path/strip.glsl"
-#include "radiance/seen_sum.glsl"
+#include "lib/hit.glsl"
+#include "path/pixel.glsl"
 
 layout(constant_id = 0) const uint kNodeLevels = 5u;
 layout(constant_id = 1) const bool kOrthographic = false;
@@ -26,11 +26,11 @@ layout(push_constant, scalar) uniform Push
 
 #define FACES_BINDING 0
 #define HITS_BINDING 1
-#include "path/hit_voxel.glsl"
 #include "path/lists.glsl"
 #include "radiance/between_faces.glsl"
 #include "radiance/light_of_brick.glsl"
 #include "radiance/seen_hit.glsl"
+#include "trace/surface.glsl"
 
 void main()
 {
@@ -40,7 +40,7 @@ void main()
     uvec2 pixel = pixelOfNumber(exists ? number : 0u, size);
     Hit hit = seenHit(pixel);
     bool hits = !isMiss(hit);
-    Attribute stored = attributeAt(hits, hit);
+    Attribute stored = attributeAt(hits, hit, params.attributes);
     bool is_direct = exists && !hits;
     if (kEmission && kFormat == kFormat8)
         is_direct = is_direct || (exists && ((stored.color >> 24) & kAttributeEmissive) != 0u);

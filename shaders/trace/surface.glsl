@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The surface at a hit, without its emission. The includer includes trace/trace.h, lib/attribute_formats.glsl,
-// lib/color.glsl, lib/hit.glsl and lib/surface_normal.glsl before, and declares kNodeLevels and kFormat.
+// The surface at a hit, without its emission.
+// Needs the constants kNodeLevels and kFormat.
 #ifndef ZVO_SHADERS_TRACE_SURFACE_GLSL
 #define ZVO_SHADERS_TRACE_SURFACE_GLSL
 
@@ -33,6 +33,20 @@ Surface surfaceAt(Hit hit, vec3 direction, Attribute_ConstPtr attributes, Attrib
         surface.may_emit = voxel && (kFormat != kFormat8 || ((stored.color >> 24) & kAttributeEmissive) != 0u);
     }
     return surface;
+}
+
+// The attribute of a voxel that was hit; nothing where `hits` is not set.
+Attribute attributeAt(bool hits, Hit hit, Attribute_ConstPtr attributes)
+{
+    Attribute stored = Attribute(0u, 0u);
+    if (kFormat != kFormatNone && hits)
+        stored = readAttribute(kFormat, true, attributes, attributes, hit.index);
+    return stored;
+}
+
+vec3 albedoOf(Attribute stored)
+{
+    return kFormat == kFormatNone ? kPlainAlbedo : decodeSrgb(unpackUnorm4x8(stored.color).rgb);
 }
 
 #endif

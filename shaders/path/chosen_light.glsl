@@ -1,11 +1,27 @@
 // SPDX-License-Identifier: MIT
-// Chosen lights. The includer includes path/path.h, path/face.glsl and path/weights.glsl before.
-#ifndef ZVO_SHADERS_PATH_CHOSEN_GLSL
-#define ZVO_SHADERS_PATH_CHOSEN_GLSL
+// Chosen lights, and the weights of light that can be found in two ways (path/path.h).
+// Needs the constant kSampling.
+#ifndef ZVO_SHADERS_PATH_CHOSEN_LIGHT_GLSL
+#define ZVO_SHADERS_PATH_CHOSEN_LIGHT_GLSL
 
 #include "lib/face.glsl"
 #include "path/path.h"
-#include "path/weights.glsl"
+
+// The weight of light that was found in one way, by the densities of this and the other way.
+float balance(float own, float other)
+{
+    if (kSampling == kSampleBoth)
+        return own / (own + other);
+    return 1.0;
+}
+
+// The weight of light that a ray has met, which light sampling would have chosen with this density.
+float chanceWeight(PathState state, float light_density)
+{
+    if (state.density == 0.0)
+        return 1.0;
+    return kSampling == kSampleLights ? 0.0 : balance(state.density, light_density);
+}
 
 // A light that was chosen for a place on a face.
 struct ChosenDirection
