@@ -6,8 +6,7 @@
 
 #include "lib/sampling.glsl"
 #include "radiance/kept_faces.h"
-#include "light/map_radiance.glsl"
-#include "light/sun_irradiance.glsl"
+#include "light/outside.glsl"
 #include "lib/face.glsl"
 
 // These are parameters of zvo's kernels. Here tables differ, so setKeptLight() sets them.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What the kernels for alias tables share (environment.h). The includer includes light/environment.h and
-// lib/dispatch.glsl before and declares params.
+// What the kernels for alias tables share (light/environment.h).
+// Needs params.weights, params.totals and params.cell_count.
 #ifndef ZVO_SHADERS_LIGHT_ALIAS_GLSL
 #define ZVO_SHADERS_LIGHT_ALIAS_GLSL
 
@@ -32,6 +32,31 @@ AliasSums sumsOf(uint normal, uint i, uint64_t total)
     bool light = weight <= total;
     return AliasSums(light ? total - weight : uint64_t(0), light ? uint64_t(0) : weight - total, light ? 1u : 0u,
                      light ? 0u : 1u);
+}
+
+shared AliasSums s_sums[kAliasGroup];
+
+// The sums of the threads of a workgroup of kAliasGroup threads before this one; total: of all threads. Call in uniform
+// control flow.
+AliasSums sumsBefore(AliasSums own, out AliasSums total)
+{
+    uint i = gl_LocalInvocationIndex;
+    AliasSums sums = own;
+    barrier(); // the array may still be read by an earlier call
+    s_sums[i] = sums;
+    for (uint distance = 1u; distance < kAliasGroup; distance *= 2u)
+    {
+        barrier();
+        AliasSums other = s_sums[i >= distance ? i - distance : 0u];
+        if (i >= distance)
+            sums = add(sums, other);
+        barrier();
+        s_sums[i] = sums;
+    }
+    barrier();
+    total = s_sums[kAliasGroup - 1u];
+    return AliasSums(sums.lacks - own.lacks, sums.gives - own.gives, sums.light_count - own.light_count,
+                     sums.heavy_count - own.heavy_count);
 }
 
 #endif

@@ -12,7 +12,6 @@ layout(push_constant, scalar) uniform Push
 };
 
 #include "light/alias.glsl"
-#include "light/alias_scan.glsl"
 
 void main()
 {

@@ -5,7 +5,7 @@
 #include "light/environment.h"
 #include "lib/color.glsl"
 #include "lib/dispatch.glsl"
-#include "light/map.glsl"
+#include "light/outside.glsl"
 
 layout(constant_id = 0) const bool kEvenly = false; // by solid angle alone
 

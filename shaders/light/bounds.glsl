@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Packing of the bounds and sums of a node of the light tree (light_tree.h).
+// Packing of the bounds and sums of a node of the light tree (light/light_tree.h).
 #ifndef ZVO_SHADERS_LIGHT_BOUNDS_GLSL
 #define ZVO_SHADERS_LIGHT_BOUNDS_GLSL
 

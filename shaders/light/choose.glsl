@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Chooses lights, and says with which probability (light/light_tree.h). The includer includes light/light_tree.h,
-// lib/morton.glsl and lib/node.glsl before, declares kNodeLevels and kByPower, and defines
-//   LIGHT_NODES    a LightNode_ConstPtr
-//   LIGHT_BRICKS   a LightBrick_ConstPtr
+// Chooses lights, and says with which probability (light/light_tree.h).
+// Needs the constants kNodeLevels and kByPower.
 #ifndef ZVO_SHADERS_LIGHT_CHOOSE_GLSL
 #define ZVO_SHADERS_LIGHT_CHOOSE_GLSL
 
@@ -51,19 +49,19 @@ uint bitWithRank(uvec2 mask, uint rank)
 }
 
 // Chooses an exposed face by two random numbers.
-ChosenLight chooseLight(LitPlace place, vec2 u)
+ChosenLight chooseLight(LightNode_ConstPtr nodes, LightBrick_ConstPtr bricks, LitPlace place, vec2 u)
 {
     ChosenLight light = ChosenLight(1.0, 0u, uvec3(0u), 0u);
     uint node = 0u;
     for (uint level = 0u; level + 1u < kNodeLevels; ++level)
     {
-        uint first = LIGHT_NODES.data[node].first_child;
-        uint count = bitCount(LIGHT_NODES.data[node].mask_lo) + bitCount(LIGHT_NODES.data[node].mask_hi);
+        uint first = nodes.data[node].first_child;
+        uint count = bitCount(nodes.data[node].mask_lo) + bitCount(nodes.data[node].mask_hi);
         float total = 0.0;
         float chosen_weight = 0.0;
         for (uint i = 0u; i < count; ++i)
         {
-            float weight = lightImportance(place, first + i, kByPower);
+            float weight = lightImportance(nodes, place, first + i, kByPower);
             bool chosen = isChosen(weight, total, u.x);
             node = chosen ? first + i : node;
             chosen_weight = chosen ? weight : chosen_weight;
@@ -73,7 +71,7 @@ ChosenLight chooseLight(LitPlace place, vec2 u)
     }
     vec3 up;
     vec3 down;
-    weighFaces(place, node, kByPower, up, down);
+    weighFaces(nodes, place, node, kByPower, up, down);
     float total = 0.0;
     float chosen_weight = 0.0;
     [[unroll]] for (uint face = 0u; face < kLightFaces; ++face)
@@ -83,26 +81,26 @@ ChosenLight chooseLight(LitPlace place, vec2 u)
         light.face = chosen ? face : light.face;
         chosen_weight = chosen ? weight : chosen_weight;
     }
-    uint brick = LIGHT_NODES.data[node].first_child;
-    uvec2 exposed = LIGHT_BRICKS.data[brick].exposed[light.face];
+    uint brick = nodes.data[node].first_child;
+    uvec2 exposed = bricks.data[brick].exposed[light.face];
     uint count = bitCount(exposed.x) + bitCount(exposed.y);
     bool exists = total > 0.0 && count != 0u;
     uint cell = bitWithRank(exposed, min(uint(u.y * float(count)), max(count, 1u) - 1u));
     light.probability *= exists ? chosen_weight / (total * float(count)) : 0.0;
-    light.cell = 4u * LIGHT_BRICKS.data[brick].cell + mortonDecode(cell);
-    light.voxel = childIndex(LIGHT_BRICKS.data[brick].leaf, exists ? cell : 0u);
+    light.cell = 4u * bricks.data[brick].cell + mortonDecode(cell);
+    light.voxel = childIndex(bricks.data[brick].leaf, exists ? cell : 0u);
     return light;
 }
 
 // The probability with which chooseLight() chooses a face of a voxel.
-float lightProbability(LitPlace place, uvec3 voxel, uint face)
+float lightProbability(LightNode_ConstPtr nodes, LightBrick_ConstPtr bricks, LitPlace place, uvec3 voxel, uint face)
 {
     float probability = 1.0;
     uint node = 0u;
     for (uint level = 0u; level + 1u < kNodeLevels; ++level)
     {
-        uint first = LIGHT_NODES.data[node].first_child;
-        uvec2 mask = uvec2(LIGHT_NODES.data[node].mask_lo, LIGHT_NODES.data[node].mask_hi);
+        uint first = nodes.data[node].first_child;
+        uvec2 mask = uvec2(nodes.data[node].mask_lo, nodes.data[node].mask_hi);
         uint cell = cellInBlock(voxel >> (2u * (kNodeLevels - 1u - level)));
         uint bit = 1u << (cell & 31u);
         uint wanted = cell < 32u ? bitCount(mask.x & (bit - 1u)) : bitCount(mask.x) + bitCount(mask.y & (bit - 1u));
@@ -112,7 +110,7 @@ float lightProbability(LitPlace place, uvec3 voxel, uint face)
         float wanted_weight = 0.0;
         for (uint i = 0u; i < count; ++i)
         {
-            float weight = lightImportance(place, first + i, kByPower);
+            float weight = lightImportance(nodes, place, first + i, kByPower);
             total += weight;
             wanted_weight = i == wanted ? weight : wanted_weight;
         }
@@ -121,7 +119,7 @@ float lightProbability(LitPlace place, uvec3 voxel, uint face)
     }
     vec3 up;
     vec3 down;
-    weighFaces(place, node, kByPower, up, down);
+    weighFaces(nodes, place, node, kByPower, up, down);
     float total = 0.0;
     float wanted_weight = 0.0;
     [[unroll]] for (uint i = 0u; i < kLightFaces; ++i)
@@ -130,7 +128,7 @@ float lightProbability(LitPlace place, uvec3 voxel, uint face)
         total += weight;
         wanted_weight = i == face ? weight : wanted_weight;
     }
-    uvec2 exposed = LIGHT_BRICKS.data[LIGHT_NODES.data[node].first_child].exposed[face];
+    uvec2 exposed = bricks.data[nodes.data[node].first_child].exposed[face];
     uint cell = cellInBlock(voxel);
     bool exists = (((cell < 32u ? exposed.x : exposed.y) >> (cell & 31u)) & 1u) != 0u;
     return exists && wanted_weight > 0.0

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: MIT
-// Light from outside of the grid, and directions towards it (light/environment.h). The includer includes
-// light/environment.h before.
+// Directions towards the light from outside of the grid, and how probably they are chosen (light/outside.h).
 #ifndef ZVO_SHADERS_LIGHT_ENVIRONMENT_GLSL
 #define ZVO_SHADERS_LIGHT_ENVIRONMENT_GLSL
 
 #include "lib/sampling.glsl"
-#include "light/map.glsl"
+#include "light/outside.glsl"
 #include "light/outside.h"
 
 // Probability by solid angle of directions in a cell that is chosen with some probability. y: of its upper and lower

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
-// How much a place may receive of the lights of a node of the light tree (light_tree.h). The includer includes
-// light/light_tree.h before, declares kNodeLevels, and defines
-//   LIGHT_NODES    a LightNode_ConstPtr
+// How much a place may receive of the lights of a node of the light tree (light/light_tree.h).
+// Needs the constant kNodeLevels.
 #ifndef ZVO_SHADERS_LIGHT_IMPORTANCE_GLSL
 #define ZVO_SHADERS_LIGHT_IMPORTANCE_GLSL
 
@@ -19,10 +18,10 @@ struct LitPlace
 // the middle of the node's box and r half its diagonal, cosines at the light and at the place are bounded by those to
 // the box's corners as seen from d, and 1 / distance^2 by 1 / max(d, r)^2. A bound is 0 only if none of the faces can be
 // seen: where the place is behind the planes of all, or the box is behind the place's. by_power: whatever the place.
-void weighFaces(LitPlace place, uint node, bool by_power, out vec3 up, out vec3 down)
+void weighFaces(LightNode_ConstPtr nodes, LitPlace place, uint node, bool by_power, out vec3 up, out vec3 down)
 {
     // Three loads: lavapipe pays for each, not for its bytes.
-    uint64_t_ConstPtr words = uint64_t_ConstPtr(uint64_t(LIGHT_NODES) + uint64_t(node) * kLightNodeBytes);
+    uint64_t_ConstPtr words = uint64_t_ConstPtr(uint64_t(nodes) + uint64_t(node) * kLightNodeBytes);
     const float edge = exp2(-2.0 * float(kNodeLevels));
     vec3 low = 1.0 + edge * vec3(unpackLightCell(unpackUint2x32(words.data[0])));
     vec3 high = 1.0 + edge * vec3(unpackLightCell(unpackUint2x32(words.data[1])) + 1u);
@@ -47,11 +46,11 @@ void weighFaces(LitPlace place, uint node, bool by_power, out vec3 up, out vec3 
 }
 
 // How much a place may receive of the lights below a node.
-float lightImportance(LitPlace place, uint node, bool by_power)
+float lightImportance(LightNode_ConstPtr nodes, LitPlace place, uint node, bool by_power)
 {
     vec3 up;
     vec3 down;
-    weighFaces(place, node, by_power, up, down);
+    weighFaces(nodes, place, node, by_power, up, down);
     return dot(up + down, vec3(1.0));
 }
 

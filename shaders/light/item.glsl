@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Goes down the voxel tree from a node under construction (light_tree.h). The includer includes light/light_tree.h and
-// lib/node.glsl before and declares kNodeLevels, kEntriesPerWord and params.tree.
+// Goes down the voxel tree from a node under construction (light/light_tree.h).
+// Needs the constants kNodeLevels and kEntriesPerWord, and params.tree.
 #ifndef ZVO_SHADERS_LIGHT_ITEM_GLSL
 #define ZVO_SHADERS_LIGHT_ITEM_GLSL
 

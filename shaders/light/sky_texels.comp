@@ -5,7 +5,7 @@
 #include "light/environment.h"
 #include "lib/dispatch.glsl"
 #include "lib/sky.glsl"
-#include "light/map.glsl"
+#include "light/outside.glsl"
 
 layout(local_size_x = kAliasGroup) in;
 layout(push_constant, scalar) uniform Push

@@ -7,14 +7,13 @@
 #define SCAN_GROUP kAssignGroup
 #include "lib/dispatch.glsl"
 #include "lib/scan.glsl"
+#include "octree/nodes.glsl"
 
 layout(local_size_x = kAssignGroup) in;
 layout(push_constant, scalar) uniform Push
 {
     AssignParams params;
 };
-
-#include "octree/assign.glsl"
 
 // The children of the nodes of all blocks before this workgroup's.
 uint childrenBefore()
@@ -49,11 +48,11 @@ void main()
     uvec4 bases = base + uvec4(0u, counts.x, counts.x + counts.y, counts.x + counts.y + counts.z);
     bool tell_bricks = params.tell_bricks != 0u;
     if (are_nodes.x)
-        setBase(nodes.x, masks_lo.x, bases.x, tell_bricks);
+        setBase(params.nodes, params.bricks, nodes.x, masks_lo.x, bases.x, tell_bricks);
     if (are_nodes.y)
-        setBase(nodes.y, masks_lo.y, bases.y, tell_bricks);
+        setBase(params.nodes, params.bricks, nodes.y, masks_lo.y, bases.y, tell_bricks);
     if (are_nodes.z)
-        setBase(nodes.z, masks_lo.z, bases.z, tell_bricks);
+        setBase(params.nodes, params.bricks, nodes.z, masks_lo.z, bases.z, tell_bricks);
     if (are_nodes.w)
-        setBase(nodes.w, masks_lo.w, bases.w, tell_bricks);
+        setBase(params.nodes, params.bricks, nodes.w, masks_lo.w, bases.w, tell_bricks);
 }

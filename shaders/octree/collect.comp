@@ -8,7 +8,7 @@
 #include "lib/arrivals.glsl"
 #include "lib/bound.glsl"
 #include "lib/dispatch.glsl"
-#include "octree/levels.glsl"
+#include "octree/nodes.glsl"
 
 layout(constant_id = 0) const bool kMixed = false; // MixedVoxels stand behind the table
 

@@ -5,6 +5,7 @@
 #include "octree/octree.h"
 #define SCAN_GROUP kRootGroup
 #include "lib/scan.glsl"
+#include "octree/nodes.glsl"
 
 layout(constant_id = 0) const bool kWideKeys = false; // the octree has more than kNarrowLevelsMax levels
 
@@ -14,7 +15,6 @@ layout(push_constant, scalar) uniform Push
     NumberParams params;
 };
 
-#include "octree/assign.glsl"
 #include "octree/place.glsl"
 
 // The level's nodes, whose first is given. Returns their number.
@@ -36,7 +36,7 @@ uint numberLevel(uint level, uint first_node)
     uint base = workgroupExclusiveAdd(bitCount(masks.x) + bitCount(masks.y), total);
     base += are_leaves ? 0u : first_node + range.count;
     if (is_node)
-        setBase(node, masks.x, base, are_leaves && !kWideKeys);
+        setBase(params.nodes, params.bricks, node, masks.x, base, are_leaves && !kWideKeys);
     memoryBarrierBuffer();
     barrier();
     return range.count;

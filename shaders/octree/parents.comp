@@ -7,7 +7,7 @@
 #include "lib/arrivals.glsl"
 #include "lib/bound.glsl"
 #include "lib/dispatch.glsl"
-#include "octree/levels.glsl"
+#include "octree/nodes.glsl"
 
 layout(constant_id = 0) const bool kWideKeys = false; // the octree has more than kNarrowLevelsMax levels
 

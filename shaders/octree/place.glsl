@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // A node gets its number: its parent's child base plus its rank among the parent's children. Until its own child base
-// is known, base_hi of the node holds its entry in the brick table. The includer has a kernel's parameters as params,
-// and lib/brick_keys.glsl.
+// is known, base_hi of the node holds its entry in the brick table.
+// Needs the constant kWideKeys, params.bricks and params.nodes.
 #ifndef ZVO_SHADERS_OCTREE_PLACE_GLSL
 #define ZVO_SHADERS_OCTREE_PLACE_GLSL
 

@@ -18,8 +18,6 @@ layout(push_constant, scalar) uniform Push
     PathLightParams params;
 };
 
-#define LIGHT_BRICKS params.light_bricks
-#define LIGHT_NODES params.light_nodes
 #include "path/lists.glsl"
 #include "path/voxel_light.glsl"
 

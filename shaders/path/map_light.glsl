@@ -6,7 +6,7 @@
 
 #include "lib/sampling.glsl"
 #include "light/environment.glsl"
-#include "light/map_radiance.glsl"
+#include "light/outside.glsl"
 #include "path/chosen_light.glsl"
 #include "path/path.h"
 #include "path/state.glsl"

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // How a path goes on from a face: in a random direction, with a kind of light to look for.
-// Needs the constants kNodeLevels and kEmission, params.gives, params.sample_index and params.lists, and what
-// light/importance.glsl says.
+// Needs the constants kNodeLevels and kEmission, params.gives, params.light_nodes, params.lists and params.sample_index.
 #ifndef ZVO_SHADERS_PATH_NEXT_RAY_GLSL
 #define ZVO_SHADERS_PATH_NEXT_RAY_GLSL
 
@@ -41,7 +40,7 @@ vec3 kindsAt(LitPlace place, uint normal)
 {
     vec3 gives = vec3(uintBitsToFloat(unpackUint2x32(uint64_t_ConstPtr(uint64_t(params.gives)).data[normal])), 0.0);
     if (kEmission)
-        gives.z = lightImportance(place, 0u, false) * exp2(-4.0 * float(kNodeLevels));
+        gives.z = lightImportance(params.light_nodes, place, 0u, false) * exp2(-4.0 * float(kNodeLevels));
     vec3 present = vec3(gives.x > 0.0 ? 1.0 : 0.0, gives.y > 0.0 ? 1.0 : 0.0, gives.z > 0.0 ? 1.0 : 0.0);
     float count = present.x + present.y + present.z;
     return count == 0.0 ? vec3(0.0) : 0.5 * present / count + 0.5 * gives / (gives.x + gives.y + gives.z);

@@ -23,7 +23,6 @@ layout(push_constant, scalar) uniform Push
     PathShadeParams params;
 };
 
-#define LIGHT_NODES params.light_nodes
 #include "path/lists.glsl"
 #include "path/next_ray.glsl"
 #include "trace/surface.glsl"

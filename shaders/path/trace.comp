@@ -18,6 +18,7 @@
 #include "lib/dispatch.glsl"
 #include "lib/traverse.glsl"
 #include "path/pixel.glsl"
+#include "path/state.glsl"
 
 layout(constant_id = 4) const bool kOrthographic = false;
 layout(constant_id = 5) const uint kFormat = kFormat8;      // of attributes
@@ -34,10 +35,7 @@ layout(push_constant, scalar) uniform Push
     PathTraceParams params;
 };
 
-#define LIGHT_BRICKS params.light_bricks
-#define LIGHT_NODES params.light_nodes
 #include "path/camera_ray.glsl"
-#include "path/chosen_light.glsl"
 #include "path/feature_sum.glsl"
 #include "path/map_light.glsl"
 #include "path/next_ray.glsl"

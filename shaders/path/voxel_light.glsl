@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Light of voxels: what a ray meets, and what is chosen.
-// Needs the constants kNodeLevels, kByPower and kSampling, params.tree, params.sample_index, and what light/choose.glsl says.
+// Needs the constants kNodeLevels, kByPower and kSampling, params.light_nodes, params.light_bricks, params.sample_index and
+// params.tree.
 #ifndef ZVO_SHADERS_PATH_VOXEL_LIGHT_GLSL
 #define ZVO_SHADERS_PATH_VOXEL_LIGHT_GLSL
 
@@ -24,7 +25,9 @@ vec3 lightOfHit(PathState state, Ray ray, Hit hit)
         uint normal = normalOfHit(hitFace(hit), direction);
         LitPlace from = LitPlace(ray.origin, normalAxis(state.normal));
         float cosine = abs(dot(normalAxis(normal), direction));
-        float area_density = lightProbability(from, hitCell(hit), normal) * exp2(4.0 * float(kNodeLevels));
+        float probability =
+            lightProbability(params.light_nodes, params.light_bricks, from, hitCell(hit), normal);
+        float area_density = probability * exp2(4.0 * float(kNodeLevels));
         density = state.kinds.z * area_density * hit.t * hit.t / max(cosine, 1e-20);
     }
     return state.throughput * (emissionOf(params.tree, hit.index) * chanceWeight(state, density));
@@ -35,7 +38,7 @@ ChosenDirection chooseVoxelLight(PathState state, vec3 origin, uint bounce)
 {
     uint pair = bounce * kPathPairs;
     vec2 point = samplePair(params.sample_index, state.seed, pair + kPairPoint);
-    ChosenLight light = chooseLight(LitPlace(origin, normalAxis(state.normal)),
+    ChosenLight light = chooseLight(params.light_nodes, params.light_bricks, LitPlace(origin, normalAxis(state.normal)),
                                     samplePair(params.sample_index, state.seed, pair + kPairChoice));
     float edge = exp2(-2.0 * float(kNodeLevels));
     vec3 way = pointOfFace(light.cell, light.face, edge, point) - origin;

@@ -19,8 +19,7 @@ layout(constant_id = 1) const uint kEntriesPerWord = 0u;
 layout(constant_id = 2) const bool kOrthographic = false;
 
 #include "trace/any_tree.glsl"
-#include "light/map_radiance.glsl"
-#include "light/sun_irradiance.glsl"
+#include "light/outside.glsl"
 #include "lib/face.glsl"
 #include "path/pixel.glsl"
 

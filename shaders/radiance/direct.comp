@@ -9,7 +9,7 @@
 #include "lib/emission.glsl"
 #include "lib/hit.glsl"
 #include "light/environment.glsl"
-#include "light/map_radiance.glsl"
+#include "light/outside.glsl"
 #include "path/pixel.glsl"
 
 layout(constant_id = 0) const bool kOrthographic = false;

@@ -21,7 +21,6 @@ layout(push_constant, scalar) uniform Push
 };
 
 #define FACES_BINDING 0
-#define LIGHT_NODES params.light_nodes
 #define STATES_BINDING 1
 #include "path/lists.glsl"
 #include "path/next_ray.glsl"

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: MIT
-// Children of candidates (svdag/svdag.h).
+// Candidates of classes of equal nodes (svdag/svdag.h): their children, which of them are unique, and hashes of contents,
+// which never decide equality.
 // Needs the constant kEntriesPerWord, of the candidates' lists.
 #ifndef ZVO_SHADERS_SVDAG_CANDIDATE_GLSL
 #define ZVO_SHADERS_SVDAG_CANDIDATE_GLSL
 
 #include "lib/node.glsl"
+#include "lib/sampling.glsl"
+#include "octree/octree.h"
 #include "shared/svdag.h"
 
 uint childCount(Node node)
@@ -48,6 +51,40 @@ uvec4 childrenAt(Node node, Node_ConstPtr nodes, uvec4 before)
 uvec4 loadFour(uint_ConstPtr from, uvec4 indices)
 {
     return uvec4(from.data[indices.x], from.data[indices.y], from.data[indices.z], from.data[indices.w]);
+}
+
+// Which of the kScanItems candidates of a thread, in workgroups of kScanGroup, are unique: the first of their class.
+struct UniqueCandidates
+{
+    uint nodes;                    // bit i: the candidate with i before it is unique
+    uint entry_counts[kScanItems]; // of its list; 0 for others
+};
+
+// Loads of the same kind do not wait for each other, so many are under way.
+UniqueCandidates uniqueCandidates(uint_ConstPtr classes, Node_ConstPtr nodes, uint first, uint node_count,
+                                  uint inner_count)
+{
+    UniqueCandidates unique;
+    unique.nodes = 0u;
+    [[unroll]] for (uint i = 0u; i < kScanItems; ++i)
+    {
+        bool is_unique = classes.data[min(first + i, node_count - 1u)] == first + i;
+        unique.nodes |= is_unique ? 1u << i : 0u;
+        unique.entry_counts[i] = 0u;
+    }
+    if (first < inner_count)
+        [[unroll]] for (uint i = 0u; i < kScanItems; ++i)
+        {
+            uint count = childCount(nodes.data[min(first + i, inner_count - 1u)]);
+            bool counts = first + i < inner_count && ((unique.nodes >> i) & 1u) != 0u;
+            unique.entry_counts[i] = counts ? count : 0u;
+        }
+    return unique;
+}
+
+uint hashMask(uint mask_lo, uint mask_hi)
+{
+    return hash(mask_lo ^ hash(mask_hi + 0x9E3779B9u));
 }
 
 #endif

@@ -15,7 +15,7 @@ layout(push_constant, scalar) uniform Push
     ClassCountParams params;
 };
 
-#include "svdag/unique.glsl"
+#include "svdag/candidate.glsl"
 
 void main()
 {

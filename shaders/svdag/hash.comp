@@ -4,7 +4,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "svdag/svdag.h"
 #include "lib/dispatch.glsl"
-#include "svdag/class_hash.glsl"
+#include "lib/sampling.glsl"
 
 layout(constant_id = 0) const uint kEntriesPerWord = 0u; // of candidates' lists; 0: there are none
 
@@ -17,10 +17,10 @@ layout(push_constant, scalar) uniform Push
 #include "svdag/candidate.glsl"
 
 // Two chains, so that no common change of several children leaves both unchanged.
-uvec2 addToHash(uvec2 hash, uint child_class)
+uvec2 addToHash(uvec2 chains, uint child_class)
 {
-    uint y = (hash.y ^ child_class) * 0x01000193u;
-    return uvec2(mixBits(hash.x + child_class), y ^ (y >> 15));
+    uint y = (chains.y ^ child_class) * 0x01000193u;
+    return uvec2(hash(chains.x + child_class), y ^ (y >> 15));
 }
 
 void main()
@@ -30,14 +30,14 @@ void main()
         return;
     Node node = params.nodes.data[params.first_node + index];
     uint count = childCount(node);
-    uvec2 hash = uvec2(hashMask(node.mask_lo, node.mask_hi), hashMask(node.mask_hi, node.mask_lo));
+    uvec2 chains = uvec2(hashMask(node.mask_lo, node.mask_hi), hashMask(node.mask_hi, node.mask_lo));
     for (uint i = 0u; i < count; i += 4u)
     {
         uvec4 classes = loadFour(params.classes, childrenAt(node, params.nodes, fourOf(count, i)));
-        hash = addToHash(hash, classes.x);
-        hash = i + 1u < count ? addToHash(hash, classes.y) : hash;
-        hash = i + 2u < count ? addToHash(hash, classes.z) : hash;
-        hash = i + 3u < count ? addToHash(hash, classes.w) : hash;
+        chains = addToHash(chains, classes.x);
+        chains = i + 1u < count ? addToHash(chains, classes.y) : chains;
+        chains = i + 2u < count ? addToHash(chains, classes.z) : chains;
+        chains = i + 3u < count ? addToHash(chains, classes.w) : chains;
     }
-    params.hashes.data[index] = hash & params.hash_mask;
+    params.hashes.data[index] = chains & params.hash_mask;
 }

@@ -7,7 +7,6 @@
 #extension GL_GOOGLE_include_directive : require
 #include "svdag/svdag.h"
 #include "lib/dispatch.glsl"
-#include "svdag/class_hash.glsl"
 
 layout(constant_id = 0) const uint kEntriesPerWord = 0u; // of candidates' lists; 0: there are none
 layout(constant_id = 1) const bool kLeaves = false; // of the level: equal masks are enough

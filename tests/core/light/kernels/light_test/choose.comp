@@ -17,8 +17,6 @@ layout(push_constant, scalar) uniform Push
     ChooseParams params;
 };
 
-#define LIGHT_BRICKS params.bricks
-#define LIGHT_NODES params.nodes
 #include "light/choose.glsl"
 #include "light/importance.glsl"
 
@@ -31,10 +29,11 @@ void main()
     LitPlace place = LitPlace(test.position, normalAxis(test.normal));
     if (kChoose)
     {
-        ChosenLight chosen = chooseLight(place, samplePair(i % params.face_count, i / params.face_count, 0u));
+        ChosenLight chosen = chooseLight(params.nodes, params.bricks, place,
+                                         samplePair(i % params.face_count, i / params.face_count, 0u));
         params.faces.data[i] = TestFace(chosen.cell, chosen.face, chosen.probability);
     }
     else
         params.faces.data[i].probability =
-            lightProbability(place, params.faces.data[i].cell, params.faces.data[i].face);
+            lightProbability(params.nodes, params.bricks, place, params.faces.data[i].cell, params.faces.data[i].face);
 }

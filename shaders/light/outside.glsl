@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: MIT
+// What is outside of the grid (light/outside.h): directions and radiance of an environment map, and what the sun gives.
+#ifndef ZVO_SHADERS_LIGHT_OUTSIDE_GLSL
+#define ZVO_SHADERS_LIGHT_OUTSIDE_GLSL
+
+#include "light/outside.h"
+
+const float kPi = 3.14159265358979;
+
+// The direction (length 1) at u in [0, 1] across the map, with this y.
+vec3 mapDirection(float u, float y, vec2 turn)
+{
+    float angle = 2.0 * kPi * u;
+    vec2 plain = sqrt(max(1.0 - y * y, 0.0)) * vec2(-sin(angle), cos(angle)); // x and z
+    return vec3(turn.x * plain.x + turn.y * plain.y, y, turn.x * plain.y - turn.y * plain.x);
+}
+
+// Where the map has a direction (length 1): u and v in [0, 1], v from the top.
+vec2 mapCoordinates(vec3 direction, vec2 turn)
+{
+    vec2 plain = vec2(turn.x * direction.x - turn.y * direction.z, turn.x * direction.z + turn.y * direction.x);
+    float angle = plain == vec2(0.0) ? 0.0 : atan(-plain.x, plain.y);
+    return vec2(fract(angle / (2.0 * kPi)), acos(clamp(direction.y, -1.0, 1.0)) / kPi);
+}
+
+// Radiance of the map from a direction (length 1).
+vec3 mapRadiance(Environment_ConstPtr environment, vec3 direction)
+{
+    EnvironmentMap map = environment.data[0].map;
+    vec2 size = vec2(map.width, map.height);
+    vec2 place = mapCoordinates(direction, map.turn) * size - 0.5;
+    vec2 low = floor(place);
+    vec2 part = place - low;
+    ivec2 corner = ivec2(low);
+    uint left = uint(corner.x < 0 ? corner.x + int(map.width) : corner.x) % map.width;
+    uint right = (left + 1u) % map.width;
+    uint above = uint(clamp(corner.y, 0, int(map.height) - 1)) * map.width;
+    uint below = uint(clamp(corner.y + 1, 0, int(map.height) - 1)) * map.width;
+    vec3_ConstPtr texels = environment.data[0].texels;
+    return environment.data[0].strength *
+           mix(mix(texels.data[above + left], texels.data[above + right], part.x),
+               mix(texels.data[below + left], texels.data[below + right], part.x), part.y);
+}
+
+// The irradiance over pi that comes from the sun's whole disc, above a surface with this normal (length 1).
+vec3 sunIrradiance(Environment_ConstPtr environment, vec3 normal)
+{
+    float cosine = max(dot(normal, environment.data[0].to_sun), 0.0);
+    return environment.data[0].sun * 2.0 * environment.data[0].sun_height * cosine;
+}
+
+#endif
