@@ -17,10 +17,8 @@ struct FaceTable
 };
 FaceTable params;
 
-#include "radiance/face_key.glsl"
+#include "radiance/kept_face.glsl"
 #include "radiance/face_table.glsl"
-#include "radiance/kept_light.glsl"
-#include "radiance/light_of_brick.glsl"
 
 const uint kPointRaysMax = 256u;         // rays of a point: all of their iterations are one invocation's
 const uint kSettledSamples = 8u;         // from which on a face's light counts in full where it is mixed with others'

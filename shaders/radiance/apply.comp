@@ -18,12 +18,9 @@ layout(push_constant, scalar) uniform Push
 #define FACES_BINDING 0
 #define STATES_BINDING 1
 #include "path/lists.glsl"
-#include "radiance/between_faces.glsl"
-#include "radiance/brick_spread.glsl"
-#include "radiance/brick_sum.glsl"
-#include "radiance/face_key.glsl"
+#include "radiance/brick.glsl"
 #include "radiance/face_table.glsl"
-#include "radiance/share_of_brick.glsl"
+#include "radiance/kept_face.glsl"
 
 // The mark of a face whose path has hit what its number tells.
 uint markAfter(uint mark, uint number)

@@ -23,8 +23,8 @@ layout(push_constant, scalar) uniform Push
 #define STATES_BINDING 1
 #include "path/lists.glsl"
 #include "path/next_ray.glsl"
-#include "radiance/face_key.glsl"
-#include "radiance/list_brick.glsl"
+#include "radiance/kept_face.glsl"
+#include "radiance/list_faces.glsl"
 
 void main()
 {
@@ -51,6 +51,6 @@ void main()
         params.radiance.data[path] = vec3(0.0);
     }
 
-    listBrick(cell, face_normal, 1u, exists);
+    listBrick(params.bricks, params.batch, cell, face_normal, 1u, exists);
     listChosen(params.numbers, params.batch, next, path, 0u);
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Light through a cone (C. Crassin et al., Interactive Indirect Illumination Using Voxel Cone Tracing, 2011). The
-// includer includes trace/any_tree.glsl with ZVO_DETAIL, and radiance/light_of_brick.glsl, before.
+// Light through a cone (C. Crassin et al., Interactive Indirect Illumination Using Voxel Cone Tracing, 2011).
+// Needs trace/any_tree.glsl, included before with ZVO_DETAIL, params.faces and params.run_count.
 #ifndef ZVO_SHADERS_RADIANCE_CONE_GLSL
 #define ZVO_SHADERS_RADIANCE_CONE_GLSL
 
@@ -11,8 +11,8 @@
 #include "lib/ray.glsl"
 #include "lib/sampling.glsl"
 #include "radiance/face_table.glsl"
+#include "radiance/kept_face.glsl"
 #include "radiance/kept_faces.h"
-#include "radiance/kept_light.glsl"
 #include "shared/trace.h"
 #include "shared/tree_table.h"
 

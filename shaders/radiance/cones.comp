@@ -31,12 +31,10 @@ layout(push_constant, scalar) uniform Push
 
 #define FACES_BINDING 0
 #define HITS_BINDING 1
-#include "radiance/face_key.glsl"
+#include "radiance/kept_face.glsl"
 #include "radiance/face_table.glsl"
-#include "radiance/kept_light.glsl"
 #include "radiance/cone.glsl"
-#include "radiance/hit_loads.glsl"
-#include "radiance/seen_hit.glsl"
+#include "radiance/hits.glsl"
 
 // Cones of 60 degrees, whose weights are the shares of the cosine: one around the normal, and five around it at 60
 // degrees. Since nodes are narrower than cones, the axes are anywhere in that share of them.
@@ -70,7 +68,7 @@ void main()
     if (number >= size.x * size.y)
         return;
     uvec2 pixel = pixelOfNumber(number, size);
-    Hit hit = seenHit(pixel);
+    Hit hit = seenHit(params.starts, params.width, pixel);
     if (isMiss(hit) || hitFace(hit) == kFaceInside)
         return;
 

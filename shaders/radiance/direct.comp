@@ -23,7 +23,7 @@ layout(push_constant, scalar) uniform Push
 
 #define HITS_BINDING 0
 #include "path/lists.glsl"
-#include "radiance/seen_hit.glsl"
+#include "radiance/hits.glsl"
 
 // Light from outside of the grid, from a direction (length 1).
 vec3 outside(vec3 direction)
@@ -40,7 +40,7 @@ void main()
     uvec2 size = uvec2(params.width, params.height);
     uint number = params.direct.data[i];
     uvec2 pixel = pixelOfNumber(number, size);
-    Hit hit = seenHit(pixel);
+    Hit hit = seenHit(params.starts, params.width, pixel);
     vec3 direction = params.forward;
     if (!kOrthographic)
         direction += rayOffset(pixelOffset(pixel, size), params.half_pixel_x, params.half_pixel_y);

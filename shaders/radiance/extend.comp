@@ -24,7 +24,7 @@ layout(push_constant, scalar) uniform Push
 #define STATES_BINDING 1
 #include "path/lists.glsl"
 #include "path/next_ray.glsl"
-#include "radiance/light_of_neighbors.glsl"
+#include "radiance/face_table.glsl"
 #include "trace/surface.glsl"
 
 void main()

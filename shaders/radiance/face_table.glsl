@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: MIT
-// The table of faces (radiance.h). The includer includes radiance/face_key.glsl before; params has run_count, too.
+// The table of faces (radiance/kept_faces.h): finding them, and the light that they keep around a place.
+// Needs params.faces and params.run_count, and params.states with STATES_BINDING.
 #ifndef ZVO_SHADERS_RADIANCE_FACE_TABLE_GLSL
 #define ZVO_SHADERS_RADIANCE_FACE_TABLE_GLSL
 
-#include "radiance/face_key.glsl"
+#include "lib/face.glsl"
+#include "lib/hit.glsl"
+#include "radiance/kept_face.glsl"
 #include "radiance/kept_faces.h"
 
 const uint kNoFace = ~0u;
@@ -40,5 +43,72 @@ uint findFace(uvec3 cell, uint normal, uint level, out KeptFace face)
     }
     return face.key == key ? slot : kNoFace;
 }
+
+// The light of the faces with a normal in the least brick around a voxel's cell that keeps some. w: 1; 0 where none
+// does, or where none is asked for.
+vec4 lightOfBrick(uvec3 cell, uint normal, bool is_asked)
+{
+    vec4 light = vec4(0.0);
+    for (uint level = 1u; is_asked && level <= kBrickLevels; ++level)
+    {
+        KeptFace face;
+        is_asked = findFace(cell >> (2u * level), normal, level, face) == kNoFace || keptWeight(face.light) == 0u;
+        light = is_asked ? light : vec4(keptRadiance(face.light), 1.0);
+    }
+    return light;
+}
+
+// The light at a place on a face, from those four faces with the same normal in the same plane whose middles are around
+// it, as far as they keep any; then w is more than 0, and xyz are to be divided by it. Likewise between bricks. cell:
+// of the level. place: from the cell's lower corner, in cells of the level. slot, here: the face that the place is on,
+// as findFace() gives it.
+vec4 lightBetweenFaces(uvec3 cell, uint normal, vec3 place, uint level, out uint slot, out KeptFace here)
+{
+    vec3 offset = clamp(place, 0.0, 1.0) - 0.5;
+    vec4 sum = vec4(0.0);
+    [[unroll]] for (uint k = 0u; k < 4u; ++k)
+    {
+        NearFace near = nearFace(k, normal, offset, 1);
+        KeptFace face;
+        uint found_slot = findFace(uvec3(ivec3(cell) + near.steps) & kHitCoordinateMask, normal, level, face);
+        bool found = found_slot != kNoFace;
+        if (k == 0u)
+        {
+            slot = found_slot;
+            here = face;
+        }
+        float share = found && keptWeight(face.light) != 0u ? near.share : 0.0;
+        sum += share * vec4(keptRadiance(face.light), 1.0);
+    }
+    return sum;
+}
+
+// As above, without the face itself.
+vec4 lightBetweenFaces(uvec3 cell, uint normal, vec3 place, uint level)
+{
+    uint slot;
+    KeptFace here;
+    return lightBetweenFaces(cell, normal, place, level, slot, here);
+}
+
+#ifdef STATES_BINDING
+// The mean light of the faces that touch a face in its plane, up to four, as far as they keep any. Their light was not
+// behind a wall, since the voxel over each was empty when it arrived. is_lit: whether any keeps light.
+vec3 lightOfNeighbors(uvec3 cell, uint normal, out bool is_lit)
+{
+    vec4 sum = vec4(0.0);
+    for (uint k = 0u; k < 4u; ++k)
+    {
+        int side = (k & 1u) != 0u ? 1 : -1;
+        ivec3 steps = stepInPlane(normal, (k & 2u) != 0u ? ivec2(side, 0) : ivec2(0, side));
+        KeptFace face;
+        uint slot = findFace(uvec3(ivec3(cell) + steps) & kHitCoordinateMask, normal, 0u, face);
+        if (slot != kNoFace && keptWeight(face.light) != 0u)
+            sum += vec4(recentRadiance(loadFaceState(slot).recent), 1.0);
+    }
+    is_lit = sum.w != 0.0;
+    return sum.rgb / max(sum.w, 1.0);
+}
+#endif
 
 #endif

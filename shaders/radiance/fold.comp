@@ -7,7 +7,6 @@
 #include "lib/bound.glsl"
 #include "lib/dispatch.glsl"
 #include "lib/sampling.glsl"
-#include "radiance/kept_light.glsl"
 
 layout(local_size_x = kRadianceGroup) in;
 layout(push_constant, scalar) uniform Push
@@ -16,11 +15,9 @@ layout(push_constant, scalar) uniform Push
 };
 
 #include "path/lists.glsl"
-#include "radiance/brick_spread.glsl"
-#include "radiance/brick_sum.glsl"
-#include "radiance/face_key.glsl"
+#include "radiance/brick.glsl"
 #include "radiance/face_table.glsl"
-#include "radiance/share_of_brick.glsl"
+#include "radiance/kept_face.glsl"
 
 // The weight of the last `added` of so many samples, in a mean in which the n-th weighs as much as its number.
 float weightOfLast(uint added, uint samples)

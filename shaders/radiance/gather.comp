@@ -26,10 +26,10 @@ const uint kNodeLevels = 0u; // no hit is a node's
 #define HITS_BINDING 2
 #define STATES_BINDING 1
 #include "radiance/face_table.glsl"
-#include "radiance/hit_loads.glsl"
+#include "radiance/hits.glsl"
 #include "radiance/insert_face.glsl"
-#include "radiance/light_of_neighbors.glsl"
-#include "radiance/want_face.glsl"
+#include "radiance/kept_face.glsl"
+#include "radiance/list_faces.glsl"
 #include "trace/surface.glsl"
 
 void main()
@@ -77,7 +77,7 @@ void main()
             params.radiance.data[state.slot] += state.throughput * albedoOf(attributeAt(true, hit, params.attributes)) * light;
         }
     }
-    wantFace(slot, 0u, wantedList(params.frame + 1u));
+    wantFace(params.wanted, slot, 0u, wantedList(params.frame + 1u));
     if (!kEnds)
     {
         uint unlit = appendTo(kUnlitPaths, kListPaths, !is_lit);

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
-// Inserts faces into the table. The includer includes radiance/face_table.glsl before; params has counters, too.
+// Inserts faces into the table.
+// Needs params.faces, params.run_count and params.counters.
 #ifndef ZVO_SHADERS_RADIANCE_INSERT_FACE_GLSL
 #define ZVO_SHADERS_RADIANCE_INSERT_FACE_GLSL
 
-#include "radiance/face_key.glsl"
 #include "radiance/face_table.glsl"
+#include "radiance/kept_face.glsl"
 #include "radiance/kept_faces.h"
 
 #define FACE_WORD(SLOT, WORD) uint_Ptr(uint64_t(params.faces) + uint64_t(SLOT) * kKeptFaceBytes).data[WORD]

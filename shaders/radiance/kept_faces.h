@@ -13,7 +13,7 @@ GPU_NAMESPACE_BEGIN
 ///     key    x 18 bits | y 13 of 18, kFaceKeyTag
 ///            y 5 of 18 | z 18 | number of the normal 3 (LightBrick::exposed) | level 5 (0: a face), kFaceKeyTag
 ///     light  red 16 | green 16
-///            blue 16 | exponent 6 | samples 10, of the face or the brick alone (radiance/kept_light.glsl)
+///            blue 16 | exponent 6 | samples 10, of the face or the brick alone (radiance/kept_face.glsl)
 ///
 /// A first word of 0 means that the slot is free; the words of the key are set one after the other (lib/bricks.glsl).
 struct KeptFace

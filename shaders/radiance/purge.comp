@@ -12,9 +12,9 @@ layout(push_constant, scalar) uniform Push
     RadiancePurgeParams params;
 };
 
-#include "radiance/face_key.glsl"
 #include "radiance/face_table.glsl"
 #include "radiance/insert_face.glsl"
+#include "radiance/kept_face.glsl"
 
 void main()
 {

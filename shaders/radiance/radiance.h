@@ -17,7 +17,7 @@
 // Bricks have means, too: a brick of level l is a cube of 4^l cells, a node of the tree, and keeps the light of all
 // faces in it that have the same normal. Its samples are theirs. A face with few samples shows a mean of its own light
 // and of the light between bricks, with weights that follow from how much samples and faces differ
-// (radiance/share_of_brick.glsl).
+// (radiance/brick.glsl).
 //
 // A frame takes so many faces as its budget has rays, of those that were hit since the frame before. A sample of a face
 // is a path of one bounce from a random point of it: a ray in a random direction, which brings emission, light from
@@ -60,10 +60,10 @@ const uint kRadianceGroup = 64u; // threads of a workgroup
 ///
 ///     mark    the last frame in which a ray has hit the face, modulo 2^15, 15 | the last one in which a ray of the
 ///             face has hit what moves, modulo 2^14 - 1, plus 1, or 0: none, 14 | kFaceMoved | kFaceSeen | kFaceListed
-///     recent  red 8 | green 8 | blue 8 | exponent 8 (radiance/kept_light.glsl): a mean of the last samples
+///     recent  red 8 | green 8 | blue 8 | exponent 8 (radiance/kept_face.glsl): a mean of the last samples
 ///             of a brick: its index in BrickSums, while it is listed
 ///     own     as KeptFace::light, of the face's samples alone
-///             of a brick: BrickSpread, and the number of samples that it is of (radiance/brick_spread.glsl)
+///             of a brick: BrickSpread, and the number of samples that it is of (radiance/brick.glsl)
 struct FaceState
 {
     uint mark;
@@ -75,9 +75,9 @@ GPU_BUFFER(FaceState, 16);
 /// Sums of a brick over the samples of a frame, or over the means of the bricks in it: 64 at most.
 struct BrickSum
 {
-    uvec3 light; // in steps that depend on the light that the brick keeps (radiance/brick_sum.glsl)
+    uvec3 light; // in steps that depend on the light that the brick keeps (radiance/brick.glsl)
     uint counts; // of samples 8 | of those where what moves matters, or has touched rays, 8 | of what follows 8
-    int total;   // BrickSpread (radiance/share_of_brick.glsl), in steps of 2^-kSpreadShift
+    int total;   // BrickSpread (radiance/brick.glsl), in steps of 2^-kSpreadShift
     int between;
 };
 GPU_BUFFER(BrickSum, 4);

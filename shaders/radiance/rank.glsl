@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: MIT
-// The ranks of faces (radiance.h). The includer includes radiance/radiance.h, lib/sobol.glsl and
-// radiance/kept_light.glsl before.
+// The ranks of faces (radiance/radiance.h).
 #ifndef ZVO_SHADERS_RADIANCE_RANK_GLSL
 #define ZVO_SHADERS_RADIANCE_RANK_GLSL
 
 #include "lib/sampling.glsl"
-#include "radiance/kept_light.glsl"
+#include "radiance/kept_face.glsl"
 #include "radiance/radiance.h"
 
 const float kSeenShare = 8.0;   // a face that the camera sees is taken so much more often than others

@@ -12,9 +12,10 @@ layout(push_constant, scalar) uniform Push
     RadianceSurroundParams params;
 };
 
+#define STATES_BINDING 1
 #include "path/lists.glsl"
-#include "radiance/face_key.glsl"
-#include "radiance/list_brick.glsl"
+#include "radiance/kept_face.glsl"
+#include "radiance/list_faces.glsl"
 
 void main()
 {
@@ -23,5 +24,5 @@ void main()
     bool exists = i < length;
     uint slot = params.bricks.data[(params.level - 2u) * params.batch + min(i, length - 1u)];
     uvec2 key = loadFace(slot).key;
-    listBrick(cellOfFace(key), normalOfFace(key), params.level, exists);
+    listBrick(params.bricks, params.batch, cellOfFace(key), normalOfFace(key), params.level, exists);
 }

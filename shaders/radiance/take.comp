@@ -5,7 +5,6 @@
 #include "radiance/radiance.h"
 #include "lib/bound.glsl"
 #include "lib/dispatch.glsl"
-#include "radiance/rank.glsl"
 
 layout(local_size_x = kRadianceGroup) in;
 layout(push_constant, scalar) uniform Push
@@ -16,7 +15,8 @@ layout(push_constant, scalar) uniform Push
 #define FACES_BINDING 0
 #define STATES_BINDING 1
 #include "path/lists.glsl"
-#include "radiance/face_key.glsl"
+#include "radiance/kept_face.glsl"
+#include "radiance/rank.glsl"
 
 void main()
 {

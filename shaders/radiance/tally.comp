@@ -7,7 +7,6 @@
 #include "lib/arrivals.glsl"
 #include "lib/bound.glsl"
 #include "lib/dispatch.glsl"
-#include "radiance/rank.glsl"
 
 layout(local_size_x = kRadianceGroup) in;
 layout(push_constant, scalar) uniform Push
@@ -18,7 +17,8 @@ layout(push_constant, scalar) uniform Push
 #define FACES_BINDING 0
 #define STATES_BINDING 1
 #include "path/lists.glsl"
-#include "radiance/face_key.glsl"
+#include "radiance/kept_face.glsl"
+#include "radiance/rank.glsl"
 
 // The least rank such that all faces of it and of those below are more than the budget.
 uint rankLimit()

@@ -8,6 +8,7 @@
 #include "lib/camera.glsl"
 #include "lib/dispatch.glsl"
 #include "lib/emission.glsl"
+#include "lib/face.glsl"
 #include "lib/hit.glsl"
 #include "path/pixel.glsl"
 
@@ -27,9 +28,8 @@ layout(push_constant, scalar) uniform Push
 #define FACES_BINDING 0
 #define HITS_BINDING 1
 #include "path/lists.glsl"
-#include "radiance/between_faces.glsl"
-#include "radiance/light_of_brick.glsl"
-#include "radiance/seen_hit.glsl"
+#include "radiance/face_table.glsl"
+#include "radiance/hits.glsl"
 #include "trace/surface.glsl"
 
 void main()
@@ -38,7 +38,7 @@ void main()
     uint number = threadIndex();
     bool exists = number < size.x * size.y;
     uvec2 pixel = pixelOfNumber(exists ? number : 0u, size);
-    Hit hit = seenHit(pixel);
+    Hit hit = seenHit(params.starts, params.width, pixel);
     bool hits = !isMiss(hit);
     Attribute stored = attributeAt(hits, hit, params.attributes);
     bool is_direct = exists && !hits;

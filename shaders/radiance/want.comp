@@ -23,9 +23,9 @@ layout(push_constant, scalar) uniform Push
 #define HITS_BINDING 2
 #define STATES_BINDING 1
 #include "radiance/face_table.glsl"
-#include "radiance/hit_loads.glsl"
+#include "radiance/hits.glsl"
 #include "radiance/insert_face.glsl"
-#include "radiance/want_face.glsl"
+#include "radiance/list_faces.glsl"
 
 // Lists the face that a pixel sees, if it exists.
 void wantSeen(uvec2 pixel, bool exists)
@@ -41,7 +41,7 @@ void wantSeen(uvec2 pixel, bool exists)
     uint slot = kNoFace;
     if (exists)
         slot = insertFace(hitCell(hit), normalOfHit(hitFace(hit), direction), 0u);
-    wantFace(slot, kFaceSeen, wantedList(params.frame));
+    wantFace(params.wanted, slot, kFaceSeen, wantedList(params.frame));
 }
 
 void main()

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// How much of the light that a face shows is that of the brick around it. The includer includes radiance/radiance.h
-// before.
+// Bricks (radiance/radiance.h): sums of their samples, which are integers, so that the order of threads does not matter;
+// and how much of the light that a face shows is that of the brick around it.
+// Needs params.sums.
 //
 // A face's mean of n samples is off by the samples' variance s over n. The light of the brick is off by the variance t
 // between its faces. So the best mean of both gives the face's own light a weight of n, and the brick's one of s / t
@@ -8,10 +9,37 @@
 // brick: with the luminance l of a sample, m of the face before it, and b of the brick, the mean of (l - b)^2 is s + t,
 // and that of (m - b) (l - b) is t, since the errors of m and l are independent. Where a wall stands in a brick that is
 // bright on one side, t is large, and no light comes through.
-#ifndef ZVO_SHADERS_RADIANCE_SHARE_OF_BRICK_GLSL
-#define ZVO_SHADERS_RADIANCE_SHARE_OF_BRICK_GLSL
+#ifndef ZVO_SHADERS_RADIANCE_BRICK_GLSL
+#define ZVO_SHADERS_RADIANCE_BRICK_GLSL
 
+#include "radiance/kept_face.glsl"
 #include "radiance/radiance.h"
+
+const float kSumMost = 67108860.0; // steps of a sample, so that 64 fit: 2^26 - 4
+
+// A step of the sums of a brick that keeps a light: between 2^-11 and 2^-12 of its strongest channel, so that samples
+// of up to 16,384 times as much fit. Brighter ones count as that. Of a brick that keeps none, 2^-14.
+float stepOfBrick(uvec2 light)
+{
+    vec3 kept = keptRadiance(light);
+    bool is_dark = kept == vec3(0.0);
+    return exp2(is_dark ? -14.0 : float(exponentFor(kept, 12)));
+}
+
+// Adds the light of a sample, rounded at random: thresholds as in radiance/kept_face.glsl. counts: as in BrickSum.
+void addLight(uint index, float unit, vec3 radiance, vec3 thresholds, uint counts)
+{
+    precise vec3 scaled = min(radiance / unit, vec3(kSumMost));
+    uvec3 light = uvec3(scaled + thresholds);
+    atomicAdd(params.sums.data[index].light.x, light.x);
+    atomicAdd(params.sums.data[index].light.y, light.y);
+    atomicAdd(params.sums.data[index].light.z, light.z);
+    atomicAdd(params.sums.data[index].counts, counts);
+}
+
+const uint kSumOfSample = 1u;
+const uint kSumOfMove = 1u << 8;
+const uint kSumOfSpread = 1u << 16;
 
 // What samples tell of both: the mean of (l - b)^2, and that of (m - b) (l - b).
 struct BrickSpread
@@ -61,6 +89,20 @@ float shareOfBrick(float samples, float brick_samples)
     const float kLeast = 1.0 / (1.0 + kBrickShareEnds);
     precise float share = brick_samples / max(samples + brick_samples, 1.0);
     return max(share - kLeast, 0.0) / (1.0 - kLeast);
+}
+
+// How a brick keeps its spread: FaceState::own of a brick.
+// The total as a float; the other number as one without its last 10 bits, where the number of samples is.
+BrickSpread spreadIn(uvec2 words, out uint samples)
+{
+    samples = words.y & 1023u;
+    return BrickSpread(uintBitsToFloat(words.x), uintBitsToFloat(words.y & ~1023u));
+}
+
+// random: 10 bits, by which the second number is rounded.
+uvec2 packSpread(BrickSpread spread, uint samples, uint random)
+{
+    return uvec2(floatBitsToUint(spread.total), ((floatBitsToUint(spread.between) + random) & ~1023u) | samples);
 }
 
 #endif
