@@ -4,7 +4,6 @@
 // around them. Then the sums are 0 again, and the bricks are not listed.
 #extension GL_GOOGLE_include_directive : require
 #include "radiance/radiance.h"
-#include "lib/bound.glsl"
 #include "lib/dispatch.glsl"
 #include "lib/sampling.glsl"
 

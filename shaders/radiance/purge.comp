@@ -3,7 +3,6 @@
 // Copies the faces that rays have hit lately into another table. What was listed is not.
 #extension GL_GOOGLE_include_directive : require
 #include "radiance/radiance.h"
-#include "lib/bound.glsl"
 #include "lib/dispatch.glsl"
 
 layout(local_size_x = kRadianceGroup) in;

@@ -3,7 +3,6 @@
 // Lists the bricks of a level around the listed ones of the level before.
 #extension GL_GOOGLE_include_directive : require
 #include "radiance/radiance.h"
-#include "lib/bound.glsl"
 #include "lib/dispatch.glsl"
 
 layout(local_size_x = kRadianceGroup) in;
