@@ -17,6 +17,7 @@
 #include "lib/bound.glsl"
 #include "lib/dispatch.glsl"
 #include "lib/traverse.glsl"
+#include "path/pixel.glsl"
 #include "path/state.glsl"
 
 layout(constant_id = 4) const bool kOrthographic = false;
@@ -35,7 +36,6 @@ layout(push_constant, scalar) uniform Push
 };
 
 #include "path/camera_ray.glsl"
-#include "path/chosen_light.glsl"
 #include "path/feature_sum.glsl"
 #include "path/map_light.glsl"
 #include "path/next_ray.glsl"
@@ -100,8 +100,8 @@ uint attributeIndexOf(Hit hit)
                                    BeforeChild_ConstPtr(uint64_t(params.tree.data[0].source.before)),
                                    uint_ConstPtr(uint64_t(params.tree.data[0].source.voxels_before_leaf)),
                                    params.tree.data[0].source.first_short_entry);
-    return attributeIndex(source, BeforeChild_ConstPtr(uint64_t(params.tree.data[0].overlay_ranks)),
-                          params.tree.data[0].attribute_offset, hit);
+    return attributeIndex(source, BeforeChild_ConstPtr(uint64_t(params.tree.data[0].overlay_ranks)), kOverlays,
+                          params.tree.data[0].attribute_offset, hitCell(hit), kNodeLevels, hit.index);
 }
 
 // A shadow ray to a light that is chosen for a path which goes on, if it can bring light.

@@ -9,8 +9,6 @@
 #include "lib/emission.glsl"
 #include "lib/half_node.glsl"
 #include "lib/hit.glsl"
-#include "lib/morton.glsl"
-#include "lib/node.glsl"
 #include "lib/ray.glsl"
 #include "lib/normal.glsl"
 #include "shared/tree_table.h"
@@ -41,7 +39,7 @@ const bool kDetail = false;
 const uint kIterationsMax = ZVO_ITERATIONS_MAX;
 
 #include "lib/traverse.glsl"
-#include "lib/ranks.glsl"
+#include "trace/hit_rank.glsl"
 
 const vec3 kPlainColor = vec3(0.6); // used for trees without attributes
 
@@ -127,32 +125,14 @@ Traversal traverseTree(TreeTable_ConstPtr tree, Ray ray, vec2 detail, uvec3 from
                     valid ? ray.t_max : 0.0, detail, from, kIterationsMax);
 }
 
-// Computes the index of a hit's attributes from the number of the voxel in its leaf, which is all that a traversal of a
-// DAG knows; as trace/ranks does.
+// The index of a hit's attributes.
 uint rankOf(TreeTable_ConstPtr tree, Traversal met)
 {
     RankSource source = RankSource(tree.data[0].source.pool, tree.data[0].source.before,
                                    tree.data[0].source.voxels_before_leaf, tree.data[0].source.first_short_entry);
     BeforeChild_ConstPtr overlay_ranks = tree.data[0].overlay_ranks;
-    RankedNode at = RankedNode(0u, 0u, 0u);
-    bool in_overlay = uint64_t(overlay_ranks) != 0ul;
-    for (uint level = 1u; level <= met.level && level + 1u < kNodeLevels; ++level)
-    {
-        uint child = cellInBlock(met.cell >> (2u * (met.level - level)));
-        in_overlay = in_overlay && descendInOverlay(source, overlay_ranks, child, at);
-        if (!in_overlay)
-            descend(source, child, at);
-    }
-    if (met.level + 1u >= kNodeLevels)
-    {
-        uint leaf = cellInBlock(met.cell >> (2u * (met.level + 1u - kNodeLevels)));
-        in_overlay = in_overlay && descendInOverlay(source, overlay_ranks, leaf, at);
-        if (!in_overlay)
-            descendToLeaf(source, leaf, true, at);
-    }
-    uint voxel = met.index + (in_overlay ? 0u : at.voxels);
-    uint node = in_overlay ? at.node + tree.data[0].attribute_offset : at.rank;
-    return met.level == kNodeLevels ? voxel : node;
+    return attributeIndex(source, overlay_ranks, uint64_t(overlay_ranks) != 0ul, tree.data[0].attribute_offset,
+                          met.cell, met.level, met.index);
 }
 
 Hit toHit(TreeTable_ConstPtr tree, Traversal met)

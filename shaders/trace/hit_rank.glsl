@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The index of the attributes of a hit in a DAG. The includer includes lib/hit.glsl, lib/morton.glsl and lib/ranks.glsl
-// before and declares kNodeLevels, kDetail and kOverlays.
+// The rank of a hit in a DAG: the index of its attributes, from the number of the voxel in its leaf, which is all that a
+// traversal of a DAG knows.
+// Needs the constants kNodeLevels, kDetail and kEntriesPerWord.
 //
 // Overlays (update/update.h) may stand above the DAG. Their nodes have attributes of their own, and so have the voxels
 // in their leaves, whose numbers the traversal has found already. What hangs below a list begins with the rank of the
@@ -8,11 +9,9 @@
 #ifndef ZVO_SHADERS_TRACE_HIT_RANK_GLSL
 #define ZVO_SHADERS_TRACE_HIT_RANK_GLSL
 
-#include "lib/hit.glsl"
 #include "lib/morton.glsl"
 #include "lib/ranks.glsl"
 #include "shared/svdag.h"
-#include "shared/trace.h"
 
 // The number in its block of the cell, at some level, that contains a cell of a lower one.
 uint cellAt(uvec3 cell, uint cell_level, uint level)
@@ -20,23 +19,30 @@ uint cellAt(uvec3 cell, uint cell_level, uint level)
     return cellInBlock(cell >> (2u * (cell_level - level)));
 }
 
-// hit: as a traversal leaves it, with the number of the voxel in its leaf as its index.
-uint attributeIndex(RankSource source, BeforeChild_ConstPtr overlay_ranks, uint attribute_offset, Hit hit)
+// Goes down the path of a hit from a node of level `from`, to the parent of the leaf or to the node of level `to`, if that
+// comes first. cell, cell_level: of the hit. in_overlay: the node that is reached is an overlay's, with a rank of its own.
+void descendToHit(RankSource source, BeforeChild_ConstPtr overlay_ranks, uvec3 cell, uint cell_level, uint from, uint to,
+                  inout bool in_overlay, inout RankedNode at)
 {
-    uvec3 cell = hitCell(hit);
-    uint level = kDetail ? hitLevel(hit) : kNodeLevels;
-    RankedNode at = RankedNode(0u, 0u, 0u);
-    bool in_overlay = kOverlays;
-    for (uint above = 0u; above + 2u < kNodeLevels; ++above)
+    for (uint above = from; above + 2u < kNodeLevels; ++above)
     {
-        if (above < level)
+        if (above < to)
         {
-            uint child = cellAt(cell, level, above + 1u);
+            uint child = cellAt(cell, cell_level, above + 1u);
             in_overlay = in_overlay && descendInOverlay(source, overlay_ranks, child, at);
             if (!in_overlay)
                 descend(source, child, at);
         }
     }
+}
+
+// level: of the hit. in_overlay: the root may be an overlay's. index: as the traversal leaves it, the number of the voxel
+// in its leaf.
+uint attributeIndex(RankSource source, BeforeChild_ConstPtr overlay_ranks, bool in_overlay, uint attribute_offset,
+                    uvec3 cell, uint level, uint index)
+{
+    RankedNode at = RankedNode(0u, 0u, 0u);
+    descendToHit(source, overlay_ranks, cell, level, 0u, level, in_overlay, at);
     if (level + 1u >= kNodeLevels)
     {
         uint leaf = cellAt(cell, level, kNodeLevels - 1u);
@@ -44,7 +50,7 @@ uint attributeIndex(RankSource source, BeforeChild_ConstPtr overlay_ranks, uint 
         if (!in_overlay)
             descendToLeaf(source, leaf, kDetail, at);
     }
-    uint voxel = hit.index + (in_overlay ? 0u : at.voxels);
+    uint voxel = index + (in_overlay ? 0u : at.voxels);
     uint node = in_overlay ? at.node + attribute_offset : at.rank;
     return level == kNodeLevels ? voxel : node;
 }

@@ -41,9 +41,8 @@ layout(push_constant, scalar) uniform Push
 
 #ifdef PRIMARY_RANKS
 #include "lib/morton.glsl"
-#include "lib/node.glsl"
 #define RANKS_BINDING 2
-#include "lib/ranks.glsl"
+#include "trace/hit_rank.glsl"
 
 // The rank of the hit; for a miss, any number. Misses make all loads, too, except those of the descent;
 // lib/traverse.glsl says why.
@@ -57,14 +56,8 @@ uint rankOf(Traversal hit)
     RankedNode at = RankedNode(first.x, first.y, 0u);
     bool in_overlay = kOverlays && (at.node & kChildList) != 0u;
     at.node &= kOverlays ? ~kChildList : ~0u;
-    for (uint level = kPathLevels + 1u; level + 1u < kNodeLevels; ++level)
-    {
-        uint child = cellInBlock(hit.cell >> (2u * (kNodeLevels - level)));
-        if (hit.hit)
-            in_overlay = in_overlay && descendInOverlay(source, overlay_ranks, child, at);
-        if (hit.hit && !in_overlay)
-            descend(source, child, at);
-    }
+    uint to = hit.hit ? kNodeLevels : 0u;
+    descendToHit(source, overlay_ranks, hit.cell, kNodeLevels, kPathLevels, to, in_overlay, at);
     if (kNodeLevels > kPathLevels + 1u)
     {
         if (kOverlays)

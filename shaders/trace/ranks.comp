@@ -50,6 +50,7 @@ void main()
     Hit hit = loadHit(Hit_ConstPtr(uint64_t(params.hits)), i);
     if (isMiss(hit))
         return;
-    uint_Ptr(uint64_t(params.hits)).data[4u * i + 1u] =
-        attributeIndex(params.source, params.overlay_ranks, params.attribute_offset, hit);
+    uint level = kDetail ? hitLevel(hit) : kNodeLevels;
+    uint_Ptr(uint64_t(params.hits)).data[4u * i + 1u] = attributeIndex(
+        params.source, params.overlay_ranks, kOverlays, params.attribute_offset, hitCell(hit), level, hit.index);
 }
