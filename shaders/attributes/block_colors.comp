@@ -7,7 +7,6 @@
 // integers.
 #extension GL_GOOGLE_include_directive : require
 #include "attributes/attributes.h"
-#include "attributes/color.glsl"
 #include "attributes/color_pair.glsl"
 #include "lib/attribute_formats.glsl"
 #include "lib/dispatch.glsl"

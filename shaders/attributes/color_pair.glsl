@@ -1,11 +1,27 @@
 // SPDX-License-Identifier: MIT
-// Pairs of colours for the 16 voxels of a block.
+// Colours in 5, 6 and 5 bits, which lib/attribute_formats.glsl unpacks, and pairs of them for the 16 voxels of a block.
 #ifndef ZVO_SHADERS_ATTRIBUTES_COLOR_PAIR_GLSL
 #define ZVO_SHADERS_ATTRIBUTES_COLOR_PAIR_GLSL
 
-#include "attributes/color.glsl"
 #include "lib/attribute_formats.glsl"
 #include "shared/attribute_formats.h"
+
+// The channels of an attribute's colour.
+uvec3 splitColor(uint color)
+{
+    return uvec3(color, color >> 8, color >> 16) & 255u;
+}
+
+// The channels whose unpacked values are nearest to 8-bit ones: c * 31 / 255 and c * 63 / 255, rounded.
+uvec3 nearestColor565(uvec3 color)
+{
+    return (color * uvec3(249u, 253u, 249u) + uvec3(1014u, 505u, 1014u)) >> uvec3(11u, 10u, 11u);
+}
+
+uint packColor565(uvec3 channels)
+{
+    return channels.r | (channels.g << kRedBits) | (channels.b << (kRedBits + kGreenBits));
+}
 
 const uvec3 kChannelMax = uvec3((1u << kRedBits) - 1u, (1u << kGreenBits) - 1u, (1u << kBlueBits) - 1u);
 

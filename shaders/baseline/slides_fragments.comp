@@ -32,7 +32,6 @@ layout(push_constant, scalar) uniform Push
 #include "baseline/slides_triangle.glsl"
 #include "voxelize/loads.glsl"
 #include "voxelize/shading.glsl"
-#include "voxelize/surface.glsl"
 
 SlidesFragment packFragment(uvec3 color, ivec3 normal)
 {

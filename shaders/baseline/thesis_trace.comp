@@ -17,8 +17,6 @@
 
 layout(constant_id = 0) const bool kOrthographic = false;
 
-const uint kMantissaBits = 23u;
-
 layout(local_size_x = kThesisTileEdge * kThesisTileEdge) in;
 layout(push_constant, scalar) uniform Push
 {

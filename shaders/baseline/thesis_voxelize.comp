@@ -29,7 +29,6 @@ layout(push_constant, scalar) uniform Push
 #include "voxelize/resolve.glsl"
 #include "voxelize/shading.glsl"
 #include "voxelize/sums.glsl"
-#include "voxelize/surface.glsl"
 #include "voxelize/window.glsl"
 
 void store(uvec3 voxel, uint code, uvec3 color, ivec3 normal)

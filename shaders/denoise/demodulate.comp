@@ -3,7 +3,6 @@
 // Divides the light of each pixel by its albedo, and makes its guide.
 #extension GL_GOOGLE_include_directive : require
 #include "denoise/denoise.h"
-#include "denoise/albedo.glsl"
 #include "denoise/guide.glsl"
 #include "lib/color.glsl"
 #include "lib/dispatch.glsl"

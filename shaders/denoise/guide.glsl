@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Guides of the filter (denoise.h), packed and compared. The includer includes denoise/denoise.h and lib/camera.glsl
-// before.
+// Guides of the filter (denoise/denoise.h), packed and compared, and the albedo by which light is divided before it is
+// filtered. Where a channel of the albedo is dark, the light is not known well in that channel.
 #ifndef ZVO_SHADERS_DENOISE_GUIDE_GLSL
 #define ZVO_SHADERS_DENOISE_GUIDE_GLSL
 
@@ -15,26 +15,26 @@ struct Guide
     float coverage; // part of the samples that hit a surface
 };
 
-const int kNormalBits = 9;
-const uint kNormalMask = (1u << kNormalBits) - 1u;
-const float kNormalSteps = 255.0;
+const int kGuideNormalBits = 9;
+const uint kGuideNormalMask = (1u << kGuideNormalBits) - 1u;
+const float kGuideNormalSteps = 255.0;
 const float kCoverageSteps = 31.0;
 
 uint packSurface(vec3 normal, float coverage)
 {
-    uvec3 code = uvec3(ivec3(round(clamp(normal, -1.0, 1.0) * kNormalSteps))) & kNormalMask;
+    uvec3 code = uvec3(ivec3(round(clamp(normal, -1.0, 1.0) * kGuideNormalSteps))) & kGuideNormalMask;
     uint cover = coverage > 0.0 ? max(uint(coverage * kCoverageSteps + 0.5), 1u) : 0u;
-    return code.x | (code.y << kNormalBits) | (code.z << (2 * kNormalBits)) | (cover << (3 * kNormalBits));
+    return code.x | (code.y << kGuideNormalBits) | (code.z << (2 * kGuideNormalBits)) | (cover << (3 * kGuideNormalBits));
 }
 
 Guide loadGuide(DenoiseGuide_ConstPtr guides, uint pixel)
 {
     uvec2 word = unpackUint2x32(uint64_t_ConstPtr(uint64_t(guides)).data[pixel]);
     int bits = int(word.y);
-    ivec3 code = ivec3(bitfieldExtract(bits, 0, kNormalBits), bitfieldExtract(bits, kNormalBits, kNormalBits),
-                       bitfieldExtract(bits, 2 * kNormalBits, kNormalBits));
-    return Guide(uintBitsToFloat(word.x), vec3(code) / kNormalSteps,
-                 float(word.y >> (3 * kNormalBits)) / kCoverageSteps);
+    ivec3 code = ivec3(bitfieldExtract(bits, 0, kGuideNormalBits), bitfieldExtract(bits, kGuideNormalBits, kGuideNormalBits),
+                       bitfieldExtract(bits, 2 * kGuideNormalBits, kGuideNormalBits));
+    return Guide(uintBitsToFloat(word.x), vec3(code) / kGuideNormalSteps,
+                 float(word.y >> (3 * kGuideNormalBits)) / kCoverageSteps);
 }
 
 vec4 loadLight(vec4_ConstPtr light, uint pixel)
@@ -91,6 +91,26 @@ float turnOf(Guide a, Guide b)
 float alikeness(Guide guide, Guide other, vec3 way, float edge)
 {
     return other.coverage * exp(-distanceFromPlane(guide, way, edge) / kPlanesApart - turnOf(guide, other));
+}
+
+bool isDark(vec3 albedo)
+{
+    return max(max(albedo.r, albedo.g), albedo.b) < kDarkest;
+}
+
+// By what light is divided, and multiplied again: the albedo, unless all of it is dark.
+vec3 divisorOf(vec3 albedo)
+{
+    return isDark(albedo) ? vec3(kDarkest) : max(albedo, vec3(1e-6));
+}
+
+// Light in the channels that are dark is taken from the others.
+vec3 lightOf(vec3 scattered, vec3 albedo)
+{
+    vec3 light = scattered / divisorOf(albedo);
+    vec3 known = vec3(greaterThanEqual(albedo, vec3(kDarkest)));
+    float known_count = dot(known, vec3(1.0));
+    return known_count == 0.0 ? light : mix(vec3(dot(light, known) / known_count), light, known);
 }
 
 #endif

@@ -4,7 +4,6 @@
 // like it: it is dimmed to the brightest of them, the less the more samples it has.
 #extension GL_GOOGLE_include_directive : require
 #include "denoise/denoise.h"
-#include "denoise/albedo.glsl"
 #include "denoise/guide.glsl"
 #include "lib/color.glsl"
 #include "lib/dispatch.glsl"

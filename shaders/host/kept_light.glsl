@@ -4,10 +4,14 @@
 #ifndef ZVO_SHADERS_HOST_KEPT_LIGHT_GLSL
 #define ZVO_SHADERS_HOST_KEPT_LIGHT_GLSL
 
-#include "lib/sampling.glsl"
-#include "radiance/kept_faces.h"
-#include "light/outside.glsl"
 #include "lib/face.glsl"
+#include "lib/hit.glsl"
+#include "lib/sampling.glsl"
+#include "light/outside.glsl"
+#include "radiance/kept_faces.h"
+#include "shared/trace.h"
+#include "shared/tree_table.h"
+#include "trace/any_tree.glsl"
 
 // These are parameters of zvo's kernels. Here tables differ, so setKeptLight() sets them.
 struct FaceTable
@@ -17,8 +21,8 @@ struct FaceTable
 };
 FaceTable params;
 
-#include "radiance/kept_face.glsl"
 #include "radiance/face_table.glsl"
+#include "radiance/kept_face.glsl"
 
 const uint kPointRaysMax = 256u;         // rays of a point: all of their iterations are one invocation's
 const uint kSettledSamples = 8u;         // from which on a face's light counts in full where it is mixed with others'

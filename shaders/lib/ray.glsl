@@ -1,11 +1,26 @@
 // SPDX-License-Identifier: MIT
-// Rays in unit space (shared/trace.h): making them for the traversal, and loading and storing them as 64-bit words:
-// lavapipe pays per word, not per byte.
+// Rays in unit space (shared/trace.h), where the coordinates of cells are mantissa bits of floats in [1, 2): making rays for
+// the traversal, and loading and storing them as 64-bit words: lavapipe pays per word, not per byte.
 #ifndef ZVO_SHADERS_LIB_RAY_GLSL
 #define ZVO_SHADERS_LIB_RAY_GLSL
 
 #include "lib/arithmetic.glsl"
 #include "shared/trace.h"
+
+const uint kMantissaBits = 23u;
+const uint kRootShift = kMantissaBits - 2u; // of the mantissa bits that number the root's cells
+
+// Length in unit space of this many mantissa steps.
+float edgeOf(uint size)
+{
+    return float(size) / float(1u << kMantissaBits);
+}
+
+// The bits of a cell's number in its block (lib/morton.glsl) that are inverted where these axes are mirrored.
+uint mirrorBits(bvec3 mirrored)
+{
+    return (mirrored.x ? 9u : 0u) | (mirrored.y ? 18u : 0u) | (mirrored.z ? 36u : 0u);
+}
 
 const float kDirectionMin = 1e-20; // smaller components of a direction count as this
 

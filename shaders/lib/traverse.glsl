@@ -37,7 +37,7 @@
 
 #define TRAVERSE_CONSTANT_ID 0
 #include "lib/half_node.glsl"
-#include "lib/unit_space.glsl"
+#include "lib/ray.glsl"
 #include "shared/svdag.h"
 #include "shared/trace.h"
 

@@ -17,7 +17,6 @@
 #include "lib/bound.glsl"
 #include "lib/dispatch.glsl"
 #include "lib/traverse.glsl"
-#include "path/pixel.glsl"
 #include "path/state.glsl"
 
 layout(constant_id = 4) const bool kOrthographic = false;
@@ -36,6 +35,7 @@ layout(push_constant, scalar) uniform Push
 };
 
 #include "path/camera_ray.glsl"
+#include "path/chosen_light.glsl"
 #include "path/feature_sum.glsl"
 #include "path/map_light.glsl"
 #include "path/next_ray.glsl"

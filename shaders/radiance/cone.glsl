@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Light through a cone (C. Crassin et al., Interactive Indirect Illumination Using Voxel Cone Tracing, 2011).
-// Needs trace/any_tree.glsl, included before with ZVO_DETAIL, params.faces and params.run_count.
+// Needs params.faces and params.run_count, and trace/any_tree.glsl with ZVO_DETAIL.
 #ifndef ZVO_SHADERS_RADIANCE_CONE_GLSL
 #define ZVO_SHADERS_RADIANCE_CONE_GLSL
 
@@ -15,6 +15,11 @@
 #include "radiance/kept_faces.h"
 #include "shared/trace.h"
 #include "shared/tree_table.h"
+#include "trace/any_tree.glsl"
+
+#ifndef ZVO_DETAIL
+#error "radiance/cone.glsl needs ZVO_DETAIL"
+#endif
 
 const uint kConeSteps = 32u;             // nodes that a cone meets or leaves, at most
 const float kConeStep = 0.01;            // out of a node, in voxels

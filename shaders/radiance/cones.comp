@@ -11,17 +11,15 @@
 #include "radiance/radiance.h"
 #include "lib/bound.glsl"
 #include "lib/dispatch.glsl"
+#include "lib/face.glsl"
+#include "lib/hit.glsl"
 #include "lib/sampling.glsl"
-#include "trace/trace.h"
+#include "light/outside.glsl"
+#include "path/pixel.glsl"
 
 layout(constant_id = 0) const uint kNodeLevels = 5u;
 layout(constant_id = 1) const uint kEntriesPerWord = 0u;
 layout(constant_id = 2) const bool kOrthographic = false;
-
-#include "trace/any_tree.glsl"
-#include "light/outside.glsl"
-#include "lib/face.glsl"
-#include "path/pixel.glsl"
 
 layout(local_size_x = kRadianceGroup) in;
 layout(push_constant, scalar) uniform Push
@@ -31,10 +29,9 @@ layout(push_constant, scalar) uniform Push
 
 #define FACES_BINDING 0
 #define HITS_BINDING 1
-#include "radiance/kept_face.glsl"
-#include "radiance/face_table.glsl"
 #include "radiance/cone.glsl"
 #include "radiance/hits.glsl"
+#include "trace/any_tree.glsl"
 
 // Cones of 60 degrees, whose weights are the shares of the cosine: one around the normal, and five around it at 60
 // degrees. Since nodes are narrower than cones, the axes are anywhere in that share of them.

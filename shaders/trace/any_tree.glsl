@@ -11,6 +11,7 @@
 #include "lib/hit.glsl"
 #include "lib/ray.glsl"
 #include "lib/normal.glsl"
+#include "shared/trace.h"
 #include "shared/tree_table.h"
 
 // These are constants in zvo's kernels (lib/traverse.glsl). Here trees differ, so setTree() sets those that are

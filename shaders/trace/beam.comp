@@ -11,7 +11,6 @@
 #include "lib/dispatch.glsl"
 #include "lib/half_node.glsl"
 #include "lib/ray.glsl"
-#include "lib/unit_space.glsl"
 
 layout(constant_id = 0) const uint kNodeLevels = 5u;     // of the octree
 layout(constant_id = 1) const uint kEntriesPerWord = 0u; // of lists; 0: there are none

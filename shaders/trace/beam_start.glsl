@@ -25,7 +25,7 @@
 
 #include "lib/half_node.glsl"
 #include "lib/morton.glsl"
-#include "lib/unit_space.glsl"
+#include "lib/ray.glsl"
 #include "shared/svdag.h"
 #include "shared/trace.h"
 

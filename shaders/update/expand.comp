@@ -22,7 +22,6 @@ layout(push_constant, scalar) uniform Push
 };
 
 #include "update/expand.glsl"
-#include "update/next_level.glsl"
 
 // By one subgroup. Returns the sum of all counts; wrapped: it is past 2^32.
 uint scanBlocks(uint block_count, out bool wrapped)

@@ -21,7 +21,6 @@ layout(push_constant, scalar) uniform Push
 };
 
 #include "update/expand.glsl"
-#include "update/next_level.glsl"
 
 shared bool s_continues;
 

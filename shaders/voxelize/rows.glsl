@@ -9,23 +9,18 @@
 
 layout(constant_id = 6) const bool kWideKeys = false; // the octree has more than kNarrowLevelsMax levels
 
+#define BRICKS_BINDING 0
+#define COLOR_BINDING 15
 #define EDGE_INT int64_t
 #define EDGE_IVEC3 i64vec3
 #define EDGE_WIDE
-#define BRICKS_BINDING 0
-#include "lib/bricks.glsl"
+#include "lib/bound.glsl"
 #include "lib/dispatch.glsl"
-#include "voxelize/window.glsl"
-#include "voxelize/raster.glsl"
 #include "voxelize/big_triangle.glsl"
-#define COLOR_BINDING 15
-#include "voxelize/resolve.glsl"
-#include "voxelize/loads.glsl"
-#include "voxelize/shading.glsl"
-#include "voxelize/vertex.glsl"
-#include "voxelize/surface.glsl"
-#include "voxelize/sums.glsl"
 #include "voxelize/fragment.glsl"
+#include "voxelize/loads.glsl"
+#include "voxelize/raster.glsl"
+#include "voxelize/shading.glsl"
 #include "voxelize/tile.glsl"
 
 layout(local_size_x = kRowsGroup) in;

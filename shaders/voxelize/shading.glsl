@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: MIT
-// The attributes of a fragment, in integers (docs/voxelization.md).
+// The surface of a triangle, and the attributes of its fragments, in integers (docs/voxelization.md).
+// Needs EDGE_INT, EDGE_IVEC3 and COLOR_BINDING as voxelize/raster.glsl and lib/attribute.glsl have them, the constants
+// kMaterialClass, kEmits and kMode, and params.scene.
 #ifndef ZVO_SHADERS_VOXELIZE_SHADING_GLSL
 #define ZVO_SHADERS_VOXELIZE_SHADING_GLSL
 
 #include "lib/arithmetic.glsl"
 #include "lib/attribute.glsl"
 #include "voxelize/loads.glsl"
+#include "voxelize/vertex.glsl"
 #include "voxelize/voxelize.h"
 
 // Texture coordinates of the three vertices of a triangle, 16.16.
@@ -191,6 +194,65 @@ uvec3 fragmentEmission(Surface surface, uvec3 weights)
         emission = mul16(emission, texel.rgb);
     }
     return emission;
+}
+
+TriangleUvs loadUvs(uint first, uvec3 vertices)
+{
+    ivec2 uv0 = loadUv(first + vertices.x);
+    ivec2 uv1 = loadUv(first + vertices.y);
+    ivec2 uv2 = loadUv(first + vertices.z);
+    return TriangleUvs(ivec3(uv0.x, uv1.x, uv2.x), ivec3(uv0.y, uv1.y, uv2.y));
+}
+
+// vertices: indices within the draw. normal: of the lattice points, by winding; corner_area: |n_w|.
+Surface loadSurface(Draw draw, uvec3 vertices, vec3 normal, float corner_area)
+{
+    Surface surface;
+    Material material = loadMaterial(draw.material);
+    surface.alpha_mode = material.alpha_mode;
+    surface.alpha_cutoff = material.alpha_cutoff;
+    surface.factor = unpackFractions(material.base_color);
+    surface.emission = unpackFractions(material.emission).rgb;
+    surface.texels = SCENE_TEXELS;
+    surface.linear_table = LINEAR_TABLE(params.scene);
+    const bool may_have_textures = kMaterialClass != kClassPlain;
+    surface.textured = may_have_textures && draw.first_uv != kAbsent && material.base_texture != kAbsent;
+    surface.emission_textured = kEmits && may_have_textures && kMode != kModeCoverage &&
+                                draw.first_emission_uv != kAbsent && material.emission_texture != kAbsent;
+    if (surface.textured)
+    {
+        surface.uvs = loadUvs(draw.first_uv, vertices);
+        surface.texture = loadTexture(material.base_texture);
+        surface.level = pickLevel(surface.texture, surface.uvs, corner_area);
+    }
+    if (surface.emission_textured)
+    {
+        surface.emission_uvs = loadUvs(draw.first_emission_uv, vertices);
+        surface.emission_texture = loadTexture(material.emission_texture);
+        surface.emission_level = pickLevel(surface.emission_texture, surface.emission_uvs, corner_area);
+    }
+    surface.colored = draw.first_color != kAbsent;
+    if (surface.colored)
+        for (uint i = 0u; i < 3u; ++i)
+            surface.colors[i] = loadColor(draw.first_color + vertices[i]);
+    if (kMode == kModeAttributes)
+    {
+        ivec3 flat_normal = unitNormal(draw.mirrored != 0u ? -normal : normal);
+        for (uint i = 0u; i < 3u; ++i)
+        {
+            surface.normals[i] = flat_normal;
+            if (draw.first_normal != kAbsent)
+            {
+                vec3 normal = loadNormal(draw.first_normal + vertices[i]);
+                bool turned = floatBitsToUint(normal.x) == kTurnedRoundBits;
+                ivec3 vertex_normal = unitNormal(worldNormal(draw, normal));
+                if (vertex_normal == ivec3(0))
+                    vertex_normal = turned ? -flat_normal : flat_normal;
+                surface.normals[i] = vertex_normal;
+            }
+        }
+    }
+    return surface;
 }
 
 #endif

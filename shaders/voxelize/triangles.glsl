@@ -9,23 +9,19 @@
 
 layout(constant_id = 6) const bool kWideKeys = false; // the octree has more than kNarrowLevelsMax levels
 
+#define BRICKS_BINDING 0
+#define COLOR_BINDING 15
 #define EDGE_INT int
 #define EDGE_IVEC3 ivec3
-#define BRICKS_BINDING 0
-#include "lib/arrivals.glsl"
-#include "lib/bricks.glsl"
-#include "lib/dispatch.glsl"
 #include "lib/arithmetic.glsl"
-#include "voxelize/window.glsl"
-#include "voxelize/raster.glsl"
-#define COLOR_BINDING 15
-#include "voxelize/resolve.glsl"
+#include "lib/arrivals.glsl"
+#include "lib/dispatch.glsl"
+#include "voxelize/fragment.glsl"
 #include "voxelize/loads.glsl"
+#include "voxelize/raster.glsl"
 #include "voxelize/shading.glsl"
 #include "voxelize/vertex.glsl"
-#include "voxelize/surface.glsl"
-#include "voxelize/sums.glsl"
-#include "voxelize/fragment.glsl"
+#include "voxelize/window.glsl"
 
 layout(constant_id = 8) const bool kSingle = false; // a chunk is one triangle, and a thread takes it
 
