@@ -7,7 +7,7 @@
 // integers.
 #extension GL_GOOGLE_include_directive : require
 #include "attributes/attributes.h"
-#include "attributes/color_pair.glsl"
+#include "attributes/block.glsl"
 #include "lib/attribute_formats.glsl"
 #include "lib/dispatch.glsl"
 

@@ -8,7 +8,7 @@
 // which more than half of the voxels have no normal has none.
 #extension GL_GOOGLE_include_directive : require
 #include "attributes/attributes.h"
-#include "attributes/scales.glsl"
+#include "attributes/block.glsl"
 #include "lib/attribute_formats.glsl"
 #include "lib/dispatch.glsl"
 #include "lib/normal.glsl"

@@ -5,7 +5,7 @@
 // Vectors, 2014, who round down or up by the same search). In integers: the angle is compared by its squared cosine.
 #extension GL_GOOGLE_include_directive : require
 #include "attributes/attributes.h"
-#include "attributes/color_pair.glsl"
+#include "attributes/block.glsl"
 #include "lib/dispatch.glsl"
 #include "lib/normal.glsl"
 

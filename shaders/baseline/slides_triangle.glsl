@@ -320,7 +320,7 @@ uvec3 slidesVoxel(SlidesTriangle t, ivec2 column, int layer)
 struct SlidesPieces
 {
     int columns;        // of a piece
-    int rows;           // likewise
+    int rows;           // of a piece
     uint count_columns; // pieces side by side
     uint count;
 };

@@ -20,7 +20,7 @@ struct EditVoxel
 {
     bool exists;
     uint index; // of its attribute
-    uint base;  // likewise in the base tree, or kNoEditNode
+    uint base;  // of its attribute in the base tree, or kNoEditNode
     uvec3 cell; // in the grid
 };
 

@@ -62,7 +62,7 @@ void addChild(LinearTable to_linear, Attribute child, inout ChildSums sums)
     sums.flags |= child.color >> 24;
 }
 
-// The same for kChildrenAtOnce children, of which the first exists.
+// Adds kChildrenAtOnce children to the sums, of which the first exists.
 void addChildren(LinearTable to_linear, AVERAGE_CHILDREN children, uvec4 indices, bvec4 exists, inout ChildSums sums)
 {
     Attribute none = Attribute(0u, 0u);

@@ -30,7 +30,7 @@ uint mortonEncode(uvec3 cell)
     return spreadBits3(cell.x) | (spreadBits3(cell.y) << 1) | (spreadBits3(cell.z) << 2);
 }
 
-// The same for coordinates of at most 20 bits: the lower 30 bits of the code, and the upper 30.
+// Morton code of a cell whose coordinates have at most 20 bits: the lower 30 bits of the code, and the upper 30.
 uvec2 mortonEncodeWide(uvec3 cell)
 {
     return uvec2(mortonEncode(cell), mortonEncode(cell >> 10));

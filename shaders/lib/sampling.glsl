@@ -54,7 +54,7 @@ uvec2 sampleBits(uint index, uint seed, uint pair)
                                  scrambleReversed(sobolSecondReversed(shuffled), hash(pair_seed ^ 0xC33CC33Cu))));
 }
 
-// The same as two numbers in [0, 1).
+// Both coordinates of a sample as numbers in [0, 1).
 vec2 samplePair(uint index, uint seed, uint pair)
 {
     return vec2(sampleBits(index, seed, pair) >> 8) * (1.0 / 16777216.0);

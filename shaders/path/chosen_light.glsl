@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT
-// Chosen lights, and the weights of light that can be found in two ways (path/path.h).
-// Needs the constant kSampling.
+// Chosen lights, the shadow rays to them, and the weights of light that can be found in two ways (path/path.h).
+// Needs the constant kSampling and params.lists.
 #ifndef ZVO_SHADERS_PATH_CHOSEN_LIGHT_GLSL
 #define ZVO_SHADERS_PATH_CHOSEN_LIGHT_GLSL
 
 #include "lib/face.glsl"
+#include "lib/ray.glsl"
+#include "path/lists.glsl"
 #include "path/path.h"
 
 // The weight of light that was found in one way, by the densities of this and the other way.
@@ -47,6 +49,22 @@ vec3 lightOfChoice(PathState state, ChosenDirection chosen)
 bool isLit(vec3 light)
 {
     return max(light.r, max(light.g, light.b)) > 0.0;
+}
+
+// Lists a shadow ray, unless it cannot bring light. rays, states: the list's. Threads without a path take part, too.
+void appendShadow(Ray_Ptr rays, ShadowState_Ptr states, uint bounce, bool exists, vec3 origin, PathState state,
+                  ChosenDirection chosen)
+{
+    vec3 light = lightOfChoice(state, chosen);
+    bool brings_light = exists && isLit(light);
+    uint shadow = appendTo(bounce, kListShadows, brings_light);
+    if (!brings_light)
+        return;
+    storeRay(rays, shadow, Ray(origin, 0.0, inverseDirection(chosen.direction), kTraceTimeMax));
+    uint64_t_Ptr words = uint64_t_Ptr(uint64_t(states));
+    words.data[3u * shadow] = packUint2x32(floatBitsToUint(light.xy));
+    words.data[3u * shadow + 1u] = packUint2x32(uvec2(floatBitsToUint(light.z), state.slot));
+    words.data[3u * shadow + 2u] = packUint2x32(chosen.target);
 }
 
 #endif

@@ -15,9 +15,9 @@ layout(push_constant, scalar) uniform Push
     PathLightParams params;
 };
 
+#include "path/chosen_light.glsl"
 #include "path/lists.glsl"
 #include "path/map_light.glsl"
-#include "path/shadow.glsl"
 
 void main()
 {
@@ -27,5 +27,6 @@ void main()
     uint path = params.numbers.data[kListMapLights * params.batch + min(i, length - 1u)];
     PathState state = loadState(params.states, path);
     vec3 origin = loadRay(params.rays, path).origin;
-    appendShadow(exists, origin, state, chooseMapLight(state, params.bounce));
+    ChosenDirection chosen = chooseMapLight(state, params.bounce);
+    appendShadow(params.shadow_rays, params.shadow_states, params.bounce, exists, origin, state, chosen);
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Light from outside of the grid: what a ray meets, and what is chosen.
-// Needs the constant kSampling, params.environment and params.sample_index.
+// Needs the constant kSampling, params.environment, params.lists and params.sample_index.
 #ifndef ZVO_SHADERS_PATH_MAP_LIGHT_GLSL
 #define ZVO_SHADERS_PATH_MAP_LIGHT_GLSL
 

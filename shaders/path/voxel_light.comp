@@ -17,8 +17,8 @@ layout(push_constant, scalar) uniform Push
     PathLightParams params;
 };
 
+#include "path/chosen_light.glsl"
 #include "path/lists.glsl"
-#include "path/shadow.glsl"
 #include "path/voxel_light.glsl"
 
 void main()
@@ -29,5 +29,6 @@ void main()
     uint path = params.numbers.data[kListVoxelLights * params.batch + min(i, length - 1u)];
     PathState state = loadState(params.states, path);
     vec3 origin = loadRay(params.rays, path).origin;
-    appendShadow(exists, origin, state, chooseVoxelLight(state, origin, params.bounce));
+    ChosenDirection chosen = chooseVoxelLight(state, origin, params.bounce);
+    appendShadow(params.shadow_rays, params.shadow_states, params.bounce, exists, origin, state, chosen);
 }

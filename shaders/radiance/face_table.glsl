@@ -59,8 +59,8 @@ vec4 lightOfBrick(uvec3 cell, uint normal, bool is_asked)
 }
 
 // The light at a place on a face, from those four faces with the same normal in the same plane whose middles are around
-// it, as far as they keep any; then w is more than 0, and xyz are to be divided by it. Likewise between bricks. cell:
-// of the level. place: from the cell's lower corner, in cells of the level. slot, here: the face that the place is on,
+// it, as far as they keep any; then w is more than 0, and xyz are to be divided by it. Bricks are mixed as faces are.
+// cell: of the level. place: from the cell's lower corner, in cells of the level. slot, here: the face that the place is on,
 // as findFace() gives it.
 vec4 lightBetweenFaces(uvec3 cell, uint normal, vec3 place, uint level, out uint slot, out KeptFace here)
 {
@@ -83,7 +83,7 @@ vec4 lightBetweenFaces(uvec3 cell, uint normal, vec3 place, uint level, out uint
     return sum;
 }
 
-// As above, without the face itself.
+// The light between four faces or bricks alone.
 vec4 lightBetweenFaces(uvec3 cell, uint normal, vec3 place, uint level)
 {
     uint slot;

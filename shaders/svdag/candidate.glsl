@@ -29,7 +29,7 @@ uvec4 fourOf(uint count, uint first)
     return min(first + uvec4(0u, 1u, 2u, 3u), uvec4(count - 1u));
 }
 
-// As childIndexAfter(), for four.
+// The references to four children with so many before them in the node.
 uvec4 childIndicesAfter(Node node, uvec4 before)
 {
     uvec4 low = uvec4(bitCount(node.mask_lo));

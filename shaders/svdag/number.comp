@@ -1,6 +1,6 @@
 #version 460
 // SPDX-License-Identifier: MIT
-// Numbers the unique nodes in the order of the candidates, and their lists likewise.
+// Numbers the unique nodes in the order of the candidates, and their lists in the same order.
 #extension GL_GOOGLE_include_directive : require
 #include "svdag/svdag.h"
 #define SCAN_GROUP kScanGroup

@@ -193,7 +193,7 @@ Hit zvo_traceRayDetail(TreeTable_ConstPtr tree, Ray ray, vec2 detail)
     return toHit(tree, traverseTree(tree, ray, detail, uvec3(0u)));
 }
 
-// The same with edges in world units.
+// In world space: nodes count as occupied whose edge is at most max(detail.x * t, detail.y), in world units.
 Hit zvo_traceDetail(TreeTable_ConstPtr tree, vec3 origin, vec3 direction, float t_min, float t_max, vec2 detail)
 {
     return zvo_traceRayDetail(tree, toUnitRay(tree, origin, direction, t_min, t_max), detail / zvo_unitEdge(tree));

@@ -73,7 +73,7 @@ uint setBit(uint mask, uint n)
 struct MergedVoxel
 {
     uint index; // of its attribute
-    uint base;  // likewise in the base tree, or kNoVoxel
+    uint base;  // of its attribute in the base tree, or kNoVoxel
     uint cell;  // in its leaf
     uint head;  // record + 1 of the first layer that has the leaf
 };

@@ -26,7 +26,7 @@ struct BrickCursor
     uint entry;
     uint base;         // first voxel of the leaf; not in coverage mode
     uvec2 masks;       // in coverage mode a hint: other threads may have set more voxels
-    MixedVoxels mixed; // likewise
+    MixedVoxels mixed; // in coverage mode a hint as well
 };
 
 // Level of the leaves among the nodes' levels.

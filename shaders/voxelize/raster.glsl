@@ -26,7 +26,7 @@ struct RasterTriangle
     ivec3 edge_v;
     ivec3 edge_w;
     EDGE_INT rise_u; // minus n_u: what the plane rises by in a column, times n_w
-    EDGE_INT rise_v; // likewise in a row, from 0 to n_w
+    EDGE_INT rise_v; // what it rises by in a row, times n_w: both from 0 to n_w
     EDGE_INT n_w;    // 0 for a segment or a point
     uint axis;       // which of x, y, z is w
     ivec2 mirror;    // -1 where u or v is mirrored, else 0
@@ -96,7 +96,7 @@ ivec2 mirrorOf(i64vec3 m)
     return ivec2((m.x ^ m.z) < 0 ? 0 : -1, (m.y ^ m.z) < 0 ? 0 : -1);
 }
 
-// The same in u, v, w of what is given in x, y, z.
+// In u, v, w what is given in x, y, z.
 ivec3 permuted(ivec3 a, uint axis)
 {
     return axis == 0u ? a.yzx : (axis == 1u ? a.zxy : a);

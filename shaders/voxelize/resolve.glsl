@@ -27,7 +27,8 @@ Attribute resolveSums(SceneView_ConstPtr scene, VoxelSums sums, uint sum_shift, 
     return Attribute(packColor(scene, color, flags), normal);
 }
 
-// Writes the mean of sums as the attribute of a voxel: one store, not two. The includer's parameters have attributes.
+// Writes the mean of sums as the attribute of a voxel: one store, not two. Needs params.attributes, params.scene and
+// params.sum_shift.
 #define STORE_MEAN(VOXEL, SUMS, FLAGS)                                                                                 \
     uint64_t_Ptr(uint64_t(params.attributes)).data[VOXEL] =                                                            \
         packAttribute(resolveSums(params.scene, SUMS, params.sum_shift, FLAGS))
@@ -67,7 +68,7 @@ void addSums(inout VoxelSums sums, VoxelSums more)
     sums.fragments += more.fragments;
 }
 
-// The same sums with `shift` value bits fewer; sum_shift: what their values are shifted by afterwards.
+// Sums whose values have lost `shift` bits; sum_shift: what their values are shifted by afterwards.
 VoxelSums droppingBits(VoxelSums sums, uint shift, uint sum_shift)
 {
     uvec3 normal =
