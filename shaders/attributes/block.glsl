@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Attributes of the 16 voxels of a block, which lib/attribute_formats.glsl unpacks: pairs of colours in 5, 6 and 5 bits, and
-// pairs of scales for the coordinates of normals, x and y at once. In integers.
+// Attributes of the 16 voxels of a block, which lib/attribute_formats.glsl unpacks: pairs of colours in 5, 6 and 5
+// bits, and pairs of scales for the coordinates of normals, x and y at once. In integers.
 #ifndef ZVO_SHADERS_ATTRIBUTES_BLOCK_GLSL
 #define ZVO_SHADERS_ATTRIBUTES_BLOCK_GLSL
 

@@ -30,7 +30,7 @@ struct VoxelFragment
     uint xy; // coordinates x | y << 16
     uint z;
     uint color;  // as in PointerNode
-    uint normal; // likewise
+    uint normal; // as in PointerNode
 };
 GPU_BUFFER(VoxelFragment, 16);
 

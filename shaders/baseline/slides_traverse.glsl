@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The traversal of baseline/slides_trace. The includer has its constants, and nodes and root and depth in params.
+// The traversal of baseline/slides_trace.
+// Needs its constants, params.nodes, params.root and params.depth.
 #ifndef ZVO_SHADERS_BASELINE_SLIDES_TRAVERSE_GLSL
 #define ZVO_SHADERS_BASELINE_SLIDES_TRAVERSE_GLSL
 

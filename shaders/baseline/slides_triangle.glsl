@@ -9,7 +9,7 @@
 // below 2^54. The plane's height is a quotient whose numerator may wrap around, but the remainder by its divisor,
 // 256 n_w <= 2^59, fits.
 //
-// The includer includes voxelize/voxelize.h, defines kThin and has depth, origin and lattice_scale in params.
+// Needs the constant kThin, params.depth, params.origin and params.lattice_scale, and params.scene.
 #ifndef ZVO_SHADERS_BASELINE_SLIDES_TRIANGLE_GLSL
 #define ZVO_SHADERS_BASELINE_SLIDES_TRIANGLE_GLSL
 

@@ -14,7 +14,7 @@
 GPU_NAMESPACE_BEGIN
 
 const uint kThesisGroup = 64u;       // threads of a workgroup where one thread takes a triangle or a cell
-const uint kThesisLevelGroup = 128u; // likewise where one takes the eight cells below a cell
+const uint kThesisLevelGroup = 128u; // threads where one takes the eight cells below a cell
 const uint kThesisParts = 64u;       // parts of a box that are tested in one dispatch after the first
 const uint kThesisTileEdge = 8u;     // pixels of a workgroup's square in a picture
 const uint kThesisDepthMax = 10u;    // 8^10 dense cells; Morton codes of 30 bits
@@ -97,7 +97,7 @@ struct ThesisVoxelizeParams // push constants of baseline/thesis_voxelize
     float lattice_scale;
     uint window;
     uint first_triangle; // of the class
-    uint triangle_count; // likewise
+    uint triangle_count; // of the class
     uint big_count;      // triangles that are taken from the list; 0: the first dispatch, over all of the class
     uint first_part;     // of each box in this dispatch
     uint cells_per_part; // cells of a bounding box that a thread tests, in whole columns
@@ -124,7 +124,7 @@ GPU_KERNEL(baseline, thesis_resolve, ThesisResolve, ThesisResolveParams)
 struct ThesisCountParams // push constants of baseline/thesis_count
 {
     GPU_CONST_PTR(Attribute) voxels;     // as in ThesisLevelParams
-    GPU_CONST_PTR(PointerNode) children; // likewise
+    GPU_CONST_PTR(PointerNode) children; // as in ThesisLevelParams
     GPU_PTR(uint) partials;              // [ceil(cell_count / kThesisLevelGroup)] cells with something below them
     uint first_cell;
     uint cell_count;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The dense cells of a level and their eight children each. The includer's parameters have voxels, children,
-// first_cell, cell_count, first_child and child_count.
+// The dense cells of a level and their eight children each.
+// Needs params.voxels, params.children, params.first_cell, params.cell_count, params.first_child and
+// params.child_count.
 #ifndef ZVO_SHADERS_BASELINE_THESIS_CELLS_GLSL
 #define ZVO_SHADERS_BASELINE_THESIS_CELLS_GLSL
 

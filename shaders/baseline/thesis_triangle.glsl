@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Between a triangle that is set up and what is kept of it from pass to pass.
+// Needs the constants kCoverage and kThin, and params.window.
 #ifndef ZVO_SHADERS_BASELINE_THESIS_TRIANGLE_GLSL
 #define ZVO_SHADERS_BASELINE_THESIS_TRIANGLE_GLSL
 

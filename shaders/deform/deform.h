@@ -60,9 +60,9 @@ struct DeformItem
     uint first_position;     // at rest
     uint first_normal;       // at rest; not used without kDeformNormals
     uint first_binding;      // not used without skin
-    uint first_joint;        // in joint_matrices; likewise
+    uint first_joint;        // in joint_matrices; not used without skin
     uint first_term;         // of positions; not used without morph targets
-    uint first_normal_term;  // likewise
+    uint first_normal_term;  // of normals; not used without morph targets
     uint first_out_position; // in out_positions
     uint first_out_normal;   // in out_normals; not used without kDeformNormals
 };
@@ -81,14 +81,14 @@ struct DeformParams // push constants of deform/vertices
     GPU_CONST_PTR(DeformChunk) chunks;
     GPU_CONST_PTR(DeformItem) items;
     GPU_CONST_PTR(vec3) positions; // at rest
-    GPU_CONST_PTR(vec3) normals;   // likewise
+    GPU_CONST_PTR(vec3) normals;   // at rest
     GPU_CONST_PTR(JointBinding) bindings;
     GPU_CONST_PTR(vec3) deltas;           // of morph targets
     GPU_CONST_PTR(mat4x3) joint_matrices; // object to world
     GPU_CONST_PTR(MorphTerm) morph_terms;
     GPU_CONST_PTR(MorphCounts) morph_counts; // [items]
     GPU_PTR(uvec3) out_positions;            // the bits of floats
-    GPU_PTR(uvec3) out_normals;              // likewise; of any length
+    GPU_PTR(uvec3) out_normals;              // the bits of floats; of any length
     uint first_chunk;
     uint chunk_count;
 };

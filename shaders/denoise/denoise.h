@@ -33,7 +33,7 @@ const float kBrightest = 1e15f; // light: its square must be a float, too
 
 // Of another pixel that tells about this one's light.
 const float kPlanesApart = 8.0f; // voxels from the plane of this one at which it counts 1 / e
-const float kTurnLeast = 0.1f;   // square of the difference of exact normals, likewise
+const float kTurnLeast = 0.1f;   // square of the difference of exact normals at which it counts 1 / e
 
 // Of a pixel of the earlier picture that shows the same place.
 const float kDistanceMax = 1.5f; // voxels from the plane of this one
@@ -41,7 +41,8 @@ const float kTurnMax = 3.0f;     // as turnOf() has it
 
 const float kFewSamples = 4.0f; // with fewer, their variance is not known
 const float kNearNoise = 10.0f; // standard deviations that pixels of denoise/estimate may differ by
-const float kNoiseMost = 10.0f; // likewise of denoise/filter: kNoiseLeast + kNoiseFew / samples, at most this
+// Standard deviations that pixels of denoise/filter may differ by: kNoiseLeast + kNoiseFew / samples, at most this.
+const float kNoiseMost = 10.0f;
 const float kNoiseLeast = 2.0f;
 const float kNoiseFew = 16.0f;
 const float kSpikeSamples = 64.0f; // with as many, no pixel is dimmed to what is around it

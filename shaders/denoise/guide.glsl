@@ -15,26 +15,26 @@ struct Guide
     float coverage; // part of the samples that hit a surface
 };
 
-const int kGuideNormalBits = 9;
-const uint kGuideNormalMask = (1u << kGuideNormalBits) - 1u;
-const float kGuideNormalSteps = 255.0;
+const int kCodeBits = 9;
+const uint kCodeMask = (1u << kCodeBits) - 1u;
+const float kCodeSteps = 255.0;
 const float kCoverageSteps = 31.0;
 
 uint packSurface(vec3 normal, float coverage)
 {
-    uvec3 code = uvec3(ivec3(round(clamp(normal, -1.0, 1.0) * kGuideNormalSteps))) & kGuideNormalMask;
+    uvec3 code = uvec3(ivec3(round(clamp(normal, -1.0, 1.0) * kCodeSteps))) & kCodeMask;
     uint cover = coverage > 0.0 ? max(uint(coverage * kCoverageSteps + 0.5), 1u) : 0u;
-    return code.x | (code.y << kGuideNormalBits) | (code.z << (2 * kGuideNormalBits)) | (cover << (3 * kGuideNormalBits));
+    return code.x | (code.y << kCodeBits) | (code.z << (2 * kCodeBits)) | (cover << (3 * kCodeBits));
 }
 
 Guide loadGuide(DenoiseGuide_ConstPtr guides, uint pixel)
 {
     uvec2 word = unpackUint2x32(uint64_t_ConstPtr(uint64_t(guides)).data[pixel]);
     int bits = int(word.y);
-    ivec3 code = ivec3(bitfieldExtract(bits, 0, kGuideNormalBits), bitfieldExtract(bits, kGuideNormalBits, kGuideNormalBits),
-                       bitfieldExtract(bits, 2 * kGuideNormalBits, kGuideNormalBits));
-    return Guide(uintBitsToFloat(word.x), vec3(code) / kGuideNormalSteps,
-                 float(word.y >> (3 * kGuideNormalBits)) / kCoverageSteps);
+    ivec3 code = ivec3(bitfieldExtract(bits, 0, kCodeBits), bitfieldExtract(bits, kCodeBits, kCodeBits),
+                       bitfieldExtract(bits, 2 * kCodeBits, kCodeBits));
+    return Guide(uintBitsToFloat(word.x), vec3(code) / kCodeSteps,
+                 float(word.y >> (3 * kCodeBits)) / kCoverageSteps);
 }
 
 vec4 loadLight(vec4_ConstPtr light, uint pixel)

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The attributes of the nodes that a dab changes. The includer has params with cells, states and averages.
+// The attributes of the nodes that a dab changes.
+// Needs AVERAGE_CHILDREN and kLanes as lib/average.glsl does, params.cells, params.states, params.to, params.scene,
+// params.averages and params.attribute_offset.
 #ifndef ZVO_SHADERS_EDIT_AVERAGE_GLSL
 #define ZVO_SHADERS_EDIT_AVERAGE_GLSL
 

@@ -68,7 +68,7 @@ struct EditCell
 {
     uint base;    // node of the base tree, or kNoEditNode
     uint voxels;  // rank of the static octree's node at the same position; of a leaf, what its bases lack
-    uint rank;    // likewise, of nodes; of an octree, base
+    uint rank;    // rank of that node among the nodes; of an octree, base
     uint mask_lo; // after the dab
     uint mask_hi;
     uint changed; // 0 or 1

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 // Packing of attributes in integers, so that every device packs the same bytes.
+// COLOR_BINDING (optional): the first of two bindings for the tables of colours in a kernel's bound form
+// (lib/bound.glsl), whose pass reaches them by these names.
 #ifndef ZVO_SHADERS_LIB_ATTRIBUTE_GLSL
 #define ZVO_SHADERS_LIB_ATTRIBUTE_GLSL
 
 #include "lib/bound.glsl"
 #include "shared/scene.h"
 
-// COLOR_BINDING (optional): the first of two bindings for the tables of colours in a kernel's bound form
-// (lib/bound.glsl), whose pass reaches them by these names.
 #if defined(BOUND) && defined(COLOR_BINDING)
 
 TEXELS_1(COLOR_BINDING, linear_to_srgb);

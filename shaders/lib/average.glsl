@@ -2,11 +2,11 @@
 // The attribute of an inner node: the mean of its children's, which stand together and have equal weights.
 //
 // A thread takes a node or, on devices with threads to spare, several do: its lanes, which stand side by side in a
-// workgroup. Sums are integers, so that any number of lanes gives the same bytes. The includer declares its local size,
-// a multiple of kLanes, and before this defines
-//   kLanes             of a node, a power of two; 1: nobody meets at barriers
-//   AVERAGE_CHILDREN   the pointer to children's attributes: Attribute_Ptr where the dispatch writes some of them itself
-//   CHILDREN_BINDING   optional: the binding of `children` in the kernel's bound form (lib/bound.glsl)
+// workgroup. Sums are integers, so that any number of lanes gives the same bytes.
+// Needs the constant kLanes of a node, a power of two (1: nobody meets at barriers), a local size that is a multiple of
+// it, and the macro AVERAGE_CHILDREN, the pointer to children's attributes: Attribute_Ptr where the dispatch writes
+// some of them itself.
+// CHILDREN_BINDING (optional): the binding of `children` in the kernel's bound form (lib/bound.glsl).
 #ifndef ZVO_SHADERS_LIB_AVERAGE_GLSL
 #define ZVO_SHADERS_LIB_AVERAGE_GLSL
 
@@ -16,6 +16,10 @@
 #include "lib/normal.glsl"
 #include "shared/octree.h"
 #include "shared/scene.h"
+
+#ifndef AVERAGE_CHILDREN
+#error "lib/average.glsl needs AVERAGE_CHILDREN: Attribute_ConstPtr or Attribute_Ptr"
+#endif
 
 const uint kChildrenAtOnce = 4u; // that a lane loads before it looks at them
 const uint kSumWords = 7u;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Numbers of workgroups and threads of dispatches that were folded from one dimension into two, and the arguments of such
-// dispatches.
+// Numbers of workgroups and threads of dispatches that were folded from one dimension into two, and the arguments of
+// such dispatches.
 #ifndef ZVO_SHADERS_LIB_DISPATCH_GLSL
 #define ZVO_SHADERS_LIB_DISPATCH_GLSL
 

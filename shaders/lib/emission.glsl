@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Emission of voxels (shared/tree_table.h): words of 32 voxels, each with the bits of those that emit and the index of the
-// first one's value.
+// Emission of voxels (shared/tree_table.h): words of 32 voxels, each with the bits of those that emit and the index of
+// the first one's value.
 #ifndef ZVO_SHADERS_LIB_EMISSION_GLSL
 #define ZVO_SHADERS_LIB_EMISSION_GLSL
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Faces of voxels: their normals, numbered as in LightBrick::exposed, points of them, and the plane in which faces with the
-// same normal lie side by side.
+// Faces of voxels: their normals, numbered as in LightBrick::exposed, points of them, and the plane in which faces with
+// the same normal lie side by side.
 #ifndef ZVO_SHADERS_LIB_FACE_GLSL
 #define ZVO_SHADERS_LIB_FACE_GLSL
 

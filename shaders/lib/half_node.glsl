@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Half nodes, and entries of lists, as lib/traverse.glsl and trace/beam_start.glsl load them. main() sets g_halves in both
-// forms of a kernel: read from the push constants inside of a traversal's loop, the address would be loaded again in every
-// iteration.
+// Half nodes, and entries of lists, as lib/traverse.glsl and trace/beam_start.glsl load them. main() sets g_halves in
+// both forms of a kernel: read from the push constants inside of a traversal's loop, the address would be loaded again
+// in every iteration.
 // NODES_BINDING (optional): the binding of params.nodes in the kernel's bound form (lib/bound.glsl).
 #ifndef ZVO_SHADERS_LIB_HALF_NODE_GLSL
 #define ZVO_SHADERS_LIB_HALF_NODE_GLSL

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Ranks in a DAG (shared/svdag.h): of voxels in Morton order, of the octree's nodes depth first. Both are sums along
-// the path from the root. Overlays (update/update.h) may stand above a DAG: their nodes have ranks of their own. The
-// includer includes trace/trace.h and lib/node.glsl before and defines
-//   kEntriesPerWord    of lists
-//   RANKS_BINDING      optional: the binding of voxels_before_leaf in the kernel's bound form (lib/bound.glsl)
+// the path from the root. Overlays (update/update.h) may stand above a DAG: their nodes have ranks of their own.
+// Needs the constant kEntriesPerWord, of lists.
+// RANKS_BINDING (optional): the binding of voxels_before_leaf in the kernel's bound form (lib/bound.glsl).
 #ifndef ZVO_SHADERS_LIB_RANKS_GLSL
 #define ZVO_SHADERS_LIB_RANKS_GLSL
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Rays in unit space (shared/trace.h), where the coordinates of cells are mantissa bits of floats in [1, 2): making rays for
-// the traversal, and loading and storing them as 64-bit words: lavapipe pays per word, not per byte.
+// Rays in unit space (shared/trace.h), where the coordinates of cells are mantissa bits of floats in [1, 2): making
+// rays for the traversal, and loading and storing them as 64-bit words: lavapipe pays per word, not per byte.
 #ifndef ZVO_SHADERS_LIB_RAY_GLSL
 #define ZVO_SHADERS_LIB_RAY_GLSL
 

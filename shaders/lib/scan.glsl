@@ -1,10 +1,15 @@
 // SPDX-License-Identifier: MIT
-// Prefix sums over a workgroup of SCAN_GROUP threads (defined by the includer), whatever the subgroup size.
+// Prefix sums over a workgroup of SCAN_GROUP threads, whatever the subgroup size.
+// Needs the macro SCAN_GROUP.
 #ifndef ZVO_SHADERS_LIB_SCAN_GLSL
 #define ZVO_SHADERS_LIB_SCAN_GLSL
 
 #extension GL_KHR_shader_subgroup_basic : require
 #extension GL_KHR_shader_subgroup_arithmetic : require
+
+#ifndef SCAN_GROUP
+#error "lib/scan.glsl needs SCAN_GROUP: the threads of a workgroup"
+#endif
 
 shared uint s_subgroup_sums[SCAN_GROUP];
 

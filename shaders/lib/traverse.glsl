@@ -19,19 +19,15 @@
 // into the cell, or advances past it (past its 2x2x2 octant, or the half node, if that is empty) to the lowest node
 // around both cells.
 //
-// The includer includes shared/trace.h and defines before:
-//   uvec2 loadHalf(uint half_index)    mask and base of half `half_index & 1` of node `half_index >> 1`
-//   uint loadEntry(uint index, uint per_word)  of a list; with kEntriesPerWord (shared/svdag.h)
-//   TRAVERSE_PATHS                     optional: a constant, true where rays may begin below the root; not with kDetail
-//                                      or fewer than four levels. Then also, as trace/node_paths.h describes it:
-//   TRAVERSE_PATHS_RELATIVE            a constant, false where the root's first child is node 1
-//   uvec2 loadPath(uint cell)          the nodes that contain a cell
-//   TRAVERSE_ENTRIES                   optional: hits in a DAG come with the index of the entry that named their leaf
-//   TRAVERSE_CONSTANT_ID               first of four constant_ids, 0 by default
-//   TRAVERSE_VARIABLES                 optional: then the includer declares what the four constants stand for, by their
-//                                      names; kNodeLevels and kEntriesPerWord may be variables, set before each ray
-//   TRAVERSE_LEVELS                    a constant, at least kNodeLevels, for registers; must be defined if that is a
-//                                      variable
+// Rays start in the node at g_halves (lib/half_node.glsl). A kernel may define before:
+//   TRAVERSE_PATHS             a constant, true where rays may begin below the root; not with kDetail or fewer than
+//                              four levels (trace/traverse_paths.glsl, which declares the next two)
+//   TRAVERSE_PATHS_RELATIVE    a constant, false where the root's first child is node 1
+//   uvec2 loadPath(uint cell)  the nodes that contain a cell, as trace/node_paths.h describes it
+//   TRAVERSE_ENTRIES           hits in a DAG come with the index of the entry that named their leaf
+//   TRAVERSE_VARIABLES         then it declares what the four constants stand for, by their names; kNodeLevels and
+//                              kEntriesPerWord may be variables, set before each ray
+//   TRAVERSE_LEVELS            a constant, at least kNodeLevels, for registers; must be defined if that is a variable
 #ifndef ZVO_SHADERS_LIB_TRAVERSE_GLSL
 #define ZVO_SHADERS_LIB_TRAVERSE_GLSL
 
@@ -45,10 +41,10 @@
 #ifndef TRAVERSE_CONSTANT_ID
 #endif
 
-layout(constant_id = TRAVERSE_CONSTANT_ID) const uint kNodeLevels = 5u; // of the octree
-layout(constant_id = TRAVERSE_CONSTANT_ID + 1) const bool kDetail = false; // stop at small nodes
-layout(constant_id = TRAVERSE_CONSTANT_ID + 2) const uint kIterationsMax = kTraceIterationsMax;
-layout(constant_id = TRAVERSE_CONSTANT_ID + 3) const uint kEntriesPerWord = 0u; // of lists; 0: there are none
+layout(constant_id = 0) const uint kNodeLevels = 5u; // of the octree
+layout(constant_id = 1) const bool kDetail = false; // stop at small nodes
+layout(constant_id = 2) const uint kIterationsMax = kTraceIterationsMax;
+layout(constant_id = 3) const uint kEntriesPerWord = 0u; // of lists; 0: there are none
 #endif
 
 

@@ -34,7 +34,7 @@ struct CollectParams // push constants of octree/collect
     GPU_PTR(WorkItem) items;         // [brick_capacity]
     GPU_PTR(BrickCounters) counters; // [1]
     GPU_PTR(LevelRange) ranges;      // [kNodeLevelsMax] element 0 is set
-    GPU_PTR(DispatchArgs) args;      // likewise
+    GPU_PTR(DispatchArgs) args;      // [kNodeLevelsMax] element 0 is set
     uint brick_capacity;
     uint max_groups_x;
 };
@@ -48,7 +48,7 @@ struct ParentsParams // push constants of octree/parents
     GPU_PTR(WorkItem) items;
     GPU_PTR(BrickCounters) counters;
     GPU_PTR(LevelRange) ranges; // [kNodeLevelsMax] cleared; element height + 1 is set
-    GPU_PTR(DispatchArgs) args; // [kNodeLevelsMax] likewise: for one thread an item
+    GPU_PTR(DispatchArgs) args; // [kNodeLevelsMax] cleared; element height + 1 is set: for one thread an item
     uint brick_mask;
     uint height; // 0: leaves
     uint max_groups_x;
@@ -77,7 +77,7 @@ struct PlaceParams // push constants of octree/place
     GPU_PTR(uint) partials; // [ceil(node_count / kScanBlock)] cleared: children of kScanBlock nodes each
     uint first_item;
     uint first_node; // of the level
-    uint node_count; // likewise
+    uint node_count; // of the level
 };
 GPU_KERNEL_BEGIN(octree, place, Place, PlaceParams)
     GPU_CONSTANT(bool, wide_keys, false)

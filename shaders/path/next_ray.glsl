@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // How a path goes on from a face: in a random direction, with a kind of light to look for.
-// Needs the constants kNodeLevels and kEmission, params.gives, params.light_nodes, params.lists and params.sample_index.
+// Needs the constants kNodeLevels and kEmission, params.gives, params.light_nodes, params.lists and
+// params.sample_index.
 #ifndef ZVO_SHADERS_PATH_NEXT_RAY_GLSL
 #define ZVO_SHADERS_PATH_NEXT_RAY_GLSL
 
@@ -96,8 +97,8 @@ NextRay nextRay(PathState state, Ray ray, bool hits, Hit hit, vec3 albedo, bool 
     return next;
 }
 
-// Lists a path by the light that it looks for. numbers: of the lists' elements, `batch` of each list. set: of lists. All
-// threads of a subgroup call this together.
+// Lists a path by the light that it looks for. numbers: of the lists' elements, `batch` of each list. set: of lists.
+// All threads of a subgroup call this together.
 void listChosen(uint_Ptr numbers, uint batch, NextRay next, uint path, uint set)
 {
     bool in_map = seeksMapLight(next);

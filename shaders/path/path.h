@@ -230,7 +230,7 @@ struct PathFinishParams // push constants of path/finish: a thread a pixel
     GPU_CONST_PTR(vec3) radiance;
     GPU_CONST_PTR(float) direct;     // kFeatures only, like the next
     GPU_PTR(PixelFeatures) features; // [width * height] in the order of strips
-    GPU_PTR(PixelSum) sums;          // [width * height] likewise
+    GPU_PTR(PixelSum) sums;          // [width * height] in the order of strips
     uint first_pixel;
     uint pixel_count;
 };
@@ -244,8 +244,8 @@ struct PathTraceParams // push constants of path/trace: a workgroup takes kPathG
     GPU_CONST_PTR(Node) nodes;
     GPU_CONST_PTR(Attribute) attributes;    // of voxels, in the format of kFormat
     GPU_CONST_PTR(uvec2) emission_words;    // kEmission only
-    GPU_CONST_PTR(LightNode) light_nodes;   // likewise
-    GPU_CONST_PTR(LightBrick) light_bricks; // likewise
+    GPU_CONST_PTR(LightNode) light_nodes;   // kEmission only
+    GPU_CONST_PTR(LightBrick) light_bricks; // kEmission only
     GPU_CONST_PTR(Environment) environment;
     GPU_CONST_PTR(vec2) gives; // [kNormals] as Environment::gives
     GPU_CONST_PTR(PathView) view;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What is kept of a pixel (path/path.h): its number, the sums of its samples, and its features. They move as 64-bit words,
-// as rays do, where a whole one is loaded or stored.
+// What is kept of a pixel (path/path.h): its number, the sums of its samples, and its features. They move as 64-bit
+// words, as rays do, where a whole one is loaded or stored.
 #ifndef ZVO_SHADERS_PATH_PIXEL_GLSL
 #define ZVO_SHADERS_PATH_PIXEL_GLSL
 

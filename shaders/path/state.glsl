@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The state of a path (path/path.h): the random numbers that it takes, and its loads and stores as 64-bit words, as those
-// of rays; and where its shadow rays end.
+// The state of a path (path/path.h): the random numbers that it takes, and its loads and stores as 64-bit words, as
+// those of rays; and where its shadow rays end.
 #ifndef ZVO_SHADERS_PATH_STATE_GLSL
 #define ZVO_SHADERS_PATH_STATE_GLSL
 

@@ -17,7 +17,7 @@
 #include "lib/bound.glsl"
 #include "lib/dispatch.glsl"
 #include "lib/traverse.glsl"
-#include "path/state.glsl"
+#include "path/pixel.glsl"
 
 layout(constant_id = 4) const bool kOrthographic = false;
 layout(constant_id = 5) const uint kFormat = kFormat8;      // of attributes

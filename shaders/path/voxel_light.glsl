@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Light of voxels: what a ray meets, and what is chosen.
-// Needs the constants kNodeLevels, kByPower and kSampling, params.light_nodes, params.light_bricks, params.sample_index and
-// params.tree.
+// Needs the constants kNodeLevels, kByPower and kSampling, params.light_nodes, params.light_bricks, params.sample_index
+// and params.tree.
 #ifndef ZVO_SHADERS_PATH_VOXEL_LIGHT_GLSL
 #define ZVO_SHADERS_PATH_VOXEL_LIGHT_GLSL
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Bricks (radiance/radiance.h): sums of their samples, which are integers, so that the order of threads does not matter;
-// and how much of the light that a face shows is that of the brick around it.
+// Bricks (radiance/radiance.h): sums of their samples, which are integers, so that the order of threads does not
+// matter; and how much of the light that a face shows is that of the brick around it.
 // Needs params.sums.
 //
 // A face's mean of n samples is off by the samples' variance s over n. The light of the brick is off by the variance t

@@ -60,8 +60,8 @@ vec4 lightOfBrick(uvec3 cell, uint normal, bool is_asked)
 
 // The light at a place on a face, from those four faces with the same normal in the same plane whose middles are around
 // it, as far as they keep any; then w is more than 0, and xyz are to be divided by it. Bricks are mixed as faces are.
-// cell: of the level. place: from the cell's lower corner, in cells of the level. slot, here: the face that the place is on,
-// as findFace() gives it.
+// cell: of the level. place: from the cell's lower corner, in cells of the level. slot, here: the face that the place
+// is on, as findFace() gives it.
 vec4 lightBetweenFaces(uvec3 cell, uint normal, vec3 place, uint level, out uint slot, out KeptFace here)
 {
     vec3 offset = clamp(place, 0.0, 1.0) - 0.5;

@@ -74,7 +74,8 @@ void main()
             PathState state = PathState(vec3(1.0), i, 0u, 0u, 0.0, vec3(0.0));
             if (kEnds)
                 state = loadState(params.path_states, i);
-            params.radiance.data[state.slot] += state.throughput * albedoOf(attributeAt(true, hit, params.attributes)) * light;
+            vec3 albedo = albedoOf(attributeAt(true, hit, params.attributes));
+            params.radiance.data[state.slot] += state.throughput * albedo * light;
         }
     }
     wantFace(params.wanted, slot, 0u, wantedList(params.frame + 1u));

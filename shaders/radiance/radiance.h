@@ -32,7 +32,7 @@
 //   radiance/tally     counts the faces of the list by their rank; its last threads find the rank that the budget ends
 //   radiance/take      lists the faces of a lower rank
 //   radiance/begin     a path from each of them; the brick of level 1 around it: into table and list
-//   radiance/surround  the bricks of a level around those of the one before that are listed: likewise
+//   radiance/surround  the bricks of a level around those of the one before that are listed: into table and list
 //     path/map_light, path/voxel_light, trace/rays, path/connect      light that was chosen
 //     trace/rays, radiance/gather            what the paths hit, and the light that is kept there
 //     path/miss, path/emitter                light that they have met
@@ -287,8 +287,8 @@ struct RadianceApplyParams // push constants of radiance/apply: a thread a path
     uint run_count;
     uint frame;
     uint window;         // the most samples that the mean's weight counts, at least 1 and at most kKeptWeightMax
-    uint touched_window; // likewise, of a face one of whose rays has hit what moves
-    uint moved_window;   // likewise, where what moves matters
+    uint touched_window; // the most samples of a face one of whose rays has hit what moves
+    uint moved_window;   // the most samples where what moves matters
 };
 GPU_KERNEL(radiance, apply, Apply, RadianceApplyParams)
 
@@ -304,7 +304,7 @@ struct RadianceFoldParams // push constants of radiance/fold: a thread a listed 
     uint frame;
     uint level;
     uint window;       // the most samples that means count
-    uint moved_window; // likewise, where something moves
+    uint moved_window; // the most samples where something moves
 };
 GPU_KERNEL(radiance, fold, Fold, RadianceFoldParams)
 

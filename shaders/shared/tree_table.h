@@ -15,7 +15,7 @@ struct TreeTable
     RankSource source;                        // pool: the nodes, of a DAG with its lists; the rest for ranks in a DAG
     GPU_CONST_PTR(BeforeChild) overlay_ranks; // by nodes of overlays above a DAG with ranks
     GPU_CONST_PTR(Attribute) attributes;      // of voxels, in the format of attribute_format
-    GPU_CONST_PTR(Attribute) node_attributes; // likewise; words of format 4 beside blocks
+    GPU_CONST_PTR(Attribute) node_attributes; // of nodes, in that format; words of format 4 beside blocks
     GPU_CONST_PTR(uvec2) emission_words;      // of 32 voxels: bits of those that emit, index of the first one's value
     GPU_CONST_PTR(uint) emission;             // radiance / emission_scale as RGB9E5
     float emission_scale;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Candidates of classes of equal nodes (svdag/svdag.h): their children, which of them are unique, and hashes of contents,
-// which never decide equality.
+// Candidates of classes of equal nodes (svdag/svdag.h): their children, which of them are unique, and hashes of
+// contents, which never decide equality.
 // Needs the constant kEntriesPerWord, of the candidates' lists.
 #ifndef ZVO_SHADERS_SVDAG_CANDIDATE_GLSL
 #define ZVO_SHADERS_SVDAG_CANDIDATE_GLSL

@@ -70,7 +70,7 @@ struct ClassCountParams // push constants of svdag/count
     GPU_CONST_PTR(Node) nodes;
     GPU_CONST_PTR(uint) classes;
     GPU_PTR(uint) node_partials;  // [ceil(candidates / kScanBlock)] unique nodes
-    GPU_PTR(uint) entry_partials; // likewise: entries of their lists
+    GPU_PTR(uint) entry_partials; // [ceil(candidates / kScanBlock)] entries of their lists
     uint node_count;              // candidates
     uint inner_count;             // those above the leaves
 };
@@ -83,7 +83,7 @@ struct ClassNumberParams // push constants of svdag/number
     GPU_CONST_PTR(Node) nodes;
     GPU_CONST_PTR(uint) classes;
     GPU_CONST_PTR(uint) node_partials;  // scanned
-    GPU_CONST_PTR(uint) entry_partials; // likewise
+    GPU_CONST_PTR(uint) entry_partials; // scanned
     GPU_PTR(uint) numbers;              // [candidates] unique nodes before a candidate: the number of a unique one
     GPU_PTR(uint) first_entries;        // [inner candidates] entries before
     GPU_PTR(uint) unique_nodes;         // [unique nodes] the candidates that they are
@@ -135,7 +135,7 @@ struct DepthFirstParams // push constants of svdag/depth_first
     GPU_CONST_PTR(uint) first_entries;
     GPU_CONST_PTR(BeforeChild) before;
     GPU_CONST_PTR(Attribute) from; // [nodes of the octree] breadth first; words if they are packed
-    GPU_PTR(Attribute) to;         // [nodes of the octree] depth first, likewise
+    GPU_PTR(Attribute) to;         // [nodes of the octree] depth first; words if they are packed
     GPU_PTR(uint) ranks;           // [nodes of the octree] in depth-first order; the level's are known
     uint first_node;
     uint node_count;

@@ -5,7 +5,7 @@
 // Times. Along an axis, the beam is after time t between origin + t * slowest and origin + t * fastest of its rays. So
 // it is between two planes from the time at which the fastest rays reach the first plane until the slowest ones have
 // passed the second one; if rays go both ways, from when the first of them are there. The beam meets a cell where these
-// intervals of all axes overlap. The includer widens the beam by more than what the rays' own times are rounded by.
+// intervals of all axes overlap. The kernel widens the beam by more than what the rays' own times are rounded by.
 //
 // Way. Nodes are taken depth first, children in the order in which the middle ray meets them. An iteration loads a node
 // and finds which of its 64 children the beam meets before the earliest time so far. It notes them for later, or, where
@@ -17,9 +17,8 @@
 // rays enter a kd-tree. S. Laine, T. Karras, Efficient Sparse Voxel Octrees, 2010, find times in an octree by a coarse
 // picture, and may miss what falls between its rays.
 //
-// The includer includes shared/svdag.h, shared/trace.h and lib/morton.glsl before, declares the constants kNodeLevels,
-// kEntriesPerWord and kIterationsMax (after as many iterations, children of any size count as small), and defines:
-//   uvec2 loadHalf(uint half_index), uint loadEntry(uint index, uint per_word)    as for lib/traverse.glsl
+// Needs the constants kNodeLevels, kEntriesPerWord and kIterationsMax: after as many iterations, children of any size
+// count as small.
 #ifndef ZVO_SHADERS_TRACE_BEAM_START_GLSL
 #define ZVO_SHADERS_TRACE_BEAM_START_GLSL
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The rank of a hit in a DAG: the index of its attributes, from the number of the voxel in its leaf, which is all that a
-// traversal of a DAG knows.
+// The rank of a hit in a DAG: the index of its attributes, from the number of the voxel in its leaf, which is all that
+// a traversal of a DAG knows.
 // Needs the constants kNodeLevels, kDetail and kEntriesPerWord.
 //
 // Overlays (update/update.h) may stand above the DAG. Their nodes have attributes of their own, and so have the voxels
@@ -19,10 +19,11 @@ uint cellAt(uvec3 cell, uint cell_level, uint level)
     return cellInBlock(cell >> (2u * (cell_level - level)));
 }
 
-// Goes down the path of a hit from a node of level `from`, to the parent of the leaf or to the node of level `to`, if that
-// comes first. cell, cell_level: of the hit. in_overlay: the node that is reached is an overlay's, with a rank of its own.
-void descendToHit(RankSource source, BeforeChild_ConstPtr overlay_ranks, uvec3 cell, uint cell_level, uint from, uint to,
-                  inout bool in_overlay, inout RankedNode at)
+// Goes down the path of a hit from a node of level `from`, to the parent of the leaf or to the node of level `to`, if
+// that comes first. cell, cell_level: of the hit. in_overlay: the node that is reached is an overlay's, with a rank of
+// its own.
+void descendToHit(RankSource source, BeforeChild_ConstPtr overlay_ranks, uvec3 cell, uint cell_level, uint from,
+                  uint to, inout bool in_overlay, inout RankedNode at)
 {
     for (uint above = from; above + 2u < kNodeLevels; ++above)
     {
@@ -36,8 +37,8 @@ void descendToHit(RankSource source, BeforeChild_ConstPtr overlay_ranks, uvec3 c
     }
 }
 
-// level: of the hit. in_overlay: the root may be an overlay's. index: as the traversal leaves it, the number of the voxel
-// in its leaf.
+// level: of the hit. in_overlay: the root may be an overlay's. index: as the traversal leaves it, the number of the
+// voxel in its leaf.
 uint attributeIndex(RankSource source, BeforeChild_ConstPtr overlay_ranks, bool in_overlay, uint attribute_offset,
                     uvec3 cell, uint level, uint index)
 {

@@ -151,7 +151,7 @@ struct ViewsParams // push constants of trace/views
     vec3 half_pixel_y;
     vec2 depth_range;         // kViewDepth only: the depth that is white, and the one that is dark
     uint first_changed_voxel; // kViewOrigin only: the first index of an attribute that is not a static voxel's
-    uint first_changed_node;  // likewise, of nodes
+    uint first_changed_node;  // kViewOrigin only: the first index of an attribute that is not a static node's
     uint width;
     uint height;
 };

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The origin of rays that gather light for a hit: rays that begin below the root, as trace/traverse_paths.glsl traces them.
+// The origin of rays that gather light for a hit: rays that begin below the root, as trace/traverse_paths.glsl traces
+// them.
 #ifndef ZVO_SHADERS_TRACE_LIT_POINT_GLSL
 #define ZVO_SHADERS_TRACE_LIT_POINT_GLSL
 

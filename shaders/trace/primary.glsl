@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Traces the rays of all pixels in live tiles, one workgroup for each tile. Rays that use up their iterations resume in
-// another round. If the includer defines PRIMARY_RANKS, hits in a DAG get the ranks that are the indices of their
+// another round. With PRIMARY_RANKS, hits in a DAG get the ranks that are the indices of their
 // attributes (D. Dolonius, E. Sintorn, V. Kaempe, U. Assarsson, Compressing Color Data for Voxelized Surface Geometry,
 // 2017, who sum up during the traversal; here only the path of the hit is summed up).
 #ifndef ZVO_SHADERS_TRACE_PRIMARY_GLSL

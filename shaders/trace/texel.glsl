@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Pixels in the formats in which pictures store them (kTexelRgba8 and so on). The includer includes trace/light.h and
-// lib/color.glsl before.
+// Pixels in the formats in which pictures store them (kTexelRgba8 and so on in trace/light.h).
 #ifndef ZVO_SHADERS_TRACE_TEXEL_GLSL
 #define ZVO_SHADERS_TRACE_TEXEL_GLSL
 

@@ -91,7 +91,7 @@ struct PrimaryParams // push constants of trace/primary
     GPU_PTR(TraceStatus) status;
     GPU_PTR(DispatchArgs) next_round; // [1] cleared: of the round that unfinished rays wait for; kMore only
     GPU_PTR(Hit) hits;                // [width * height] row by row, undefined in dead tiles
-    GPU_PTR(uint) iterations;         // [width * height] likewise; kCountIterations only
+    GPU_PTR(uint) iterations;         // [width * height] row by row; kCountIterations only
     CameraRays camera;
     uint width;
     uint height;

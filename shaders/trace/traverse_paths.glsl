@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The traversal of lib/traverse.glsl for rays that begin below the root, at the nodes that trace/node_paths has written.
+// The traversal of lib/traverse.glsl for rays that begin below the root, at the nodes that trace/node_paths has
+// written.
 // Needs the constants kPaths and kPathsRelative. main() sets g_paths.
 // PATHS_BINDING (optional): the binding of params.paths in the kernel's bound form (lib/bound.glsl).
 #ifndef ZVO_SHADERS_TRACE_TRAVERSE_PATHS_GLSL

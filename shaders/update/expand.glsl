@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The children of touched nodes of an overlay, and the sizes of what follows a level.
-// Needs the constants kWideKeys, kEntriesPerWord, kAttributes and kRanks, and the parameters of update/expand or update/top.
+// Needs the constants kWideKeys, kEntriesPerWord, kAttributes and kRanks, and the parameters of update/expand or
+// update/top.
 #ifndef ZVO_SHADERS_UPDATE_EXPAND_GLSL
 #define ZVO_SHADERS_UPDATE_EXPAND_GLSL
 

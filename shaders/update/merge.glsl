@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The voxels of touched leaves, and the layers' voxels at the same positions: what update/merge and update/merge_emission
-// share, their constants and parameters included.
+// The voxels of touched leaves, and the layers' voxels at the same positions: what update/merge and
+// update/merge_emission share, their constants and parameters included.
 #ifndef ZVO_SHADERS_UPDATE_MERGE_GLSL
 #define ZVO_SHADERS_UPDATE_MERGE_GLSL
 

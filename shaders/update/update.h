@@ -47,7 +47,7 @@ const uint kMergeStatic = 2u;  // the base tree
 const uint kFailedLayer = 1u;      // a layer had not enough room: LayerCounters tell which
 const uint kFailedTable = 2u;      // the table of touched nodes
 const uint kFailedNodes = 4u;      // the overlay's region
-const uint kFailedVoxels = 8u;     // likewise
+const uint kFailedVoxels = 8u;     // the region of the overlay's voxels
 const uint kFailedFragments = 16u; // more fragments in a voxel than sums hold
 
 /// The counts of a layer. Counting continues past the capacities.
@@ -264,7 +264,7 @@ struct MergeView
 {
     GPU_CONST_PTR(SceneView) scene;            // for the tables of sRGB codes
     GPU_CONST_PTR(VoxelSums) sums;             // of the base tree's voxels; kMergeAverage only
-    GPU_CONST_PTR(EmissionSums) emission_sums; // of its emissive voxels; likewise
+    GPU_CONST_PTR(EmissionSums) emission_sums; // of its emissive voxels; kMergeAverage only
     uint base_shift;                           // bits that these sums have more than those of the layers
     uint base_voxel_count; // voxels that have sums: others, which a brush has changed, count as nothing
 };

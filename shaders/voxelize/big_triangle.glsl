@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Functions that the kernels over big triangles share.
+// Needs EDGE_INT, EDGE_IVEC3 and EDGE_WIDE as voxelize/raster.glsl does, and params.window.
 #ifndef ZVO_SHADERS_VOXELIZE_BIG_TRIANGLE_GLSL
 #define ZVO_SHADERS_VOXELIZE_BIG_TRIANGLE_GLSL
 

@@ -3,6 +3,8 @@
 //
 // With kMixed, coverage tells voxels that several fragments share from the others, and sums are kept of those alone:
 // the attribute of a voxel with one fragment is written at once. It is the same as the one that sums would give.
+//
+// Needs EDGE_INT and EDGE_IVEC3, kWideKeys, the constants of voxelize/constants.glsl, and RasterParams.
 #ifndef ZVO_SHADERS_VOXELIZE_FRAGMENT_GLSL
 #define ZVO_SHADERS_VOXELIZE_FRAGMENT_GLSL
 

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Exact coverage of one triangle, column by column (docs/voxelization.md; Schwarz and Seidel 2010, in integers).
 //
-// Before it is included, EDGE_INT and EDGE_IVEC3 are defined: int and ivec3 for triangles of at most kSmallExtent, else
-// int64_t and i64vec3. Arithmetic wraps; what is compared in the end fits (int64: vertices within kLatticeLimit).
+// Needs the constants kCoverage and kThin, and the macros EDGE_INT and EDGE_IVEC3: int and ivec3 for triangles of at
+// most kSmallExtent, else int64_t and i64vec3, with EDGE_WIDE. Arithmetic wraps; what is compared in the end fits
+// (int64: vertices within kLatticeLimit).
 //
 // Axes are permuted so that w is the triangle's major axis; columns stand along w over the (u, v) plane. Then u and v
 // are mirrored, and corners exchanged, so that every triangle with area has n_u <= 0, n_v <= 0 and n_w > 0: its plane
@@ -15,6 +16,10 @@
 #define ZVO_SHADERS_VOXELIZE_RASTER_GLSL
 
 #include "voxelize/voxelize.h"
+
+#ifndef EDGE_INT
+#error "voxelize/raster.glsl needs EDGE_INT: int or int64_t, and EDGE_IVEC3"
+#endif
 
 // A triangle set up for its grid.
 struct RasterTriangle

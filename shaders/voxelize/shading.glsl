@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The surface of a triangle, and the attributes of its fragments, in integers (docs/voxelization.md).
-// Needs EDGE_INT, EDGE_IVEC3 and COLOR_BINDING as voxelize/raster.glsl and lib/attribute.glsl have them, the constants
-// kMaterialClass, kEmits and kMode, and params.scene.
+// Needs EDGE_INT, EDGE_IVEC3 and EDGE_WIDE as voxelize/raster.glsl does, the constants kMaterialClass, kEmits and
+// kMode, and params.scene.
 #ifndef ZVO_SHADERS_VOXELIZE_SHADING_GLSL
 #define ZVO_SHADERS_VOXELIZE_SHADING_GLSL
 
@@ -10,6 +10,10 @@
 #include "voxelize/loads.glsl"
 #include "voxelize/vertex.glsl"
 #include "voxelize/voxelize.h"
+
+#ifndef EDGE_IVEC3
+#error "voxelize/shading.glsl needs EDGE_IVEC3: ivec3 or i64vec3"
+#endif
 
 // Texture coordinates of the three vertices of a triangle, 16.16.
 struct TriangleUvs

@@ -4,6 +4,8 @@
 // INT64_ATOMICS: two words of VoxelSums are added as one 64-bit number. No word carries into the next: their values are
 // not negative, and sums of kFragmentsMax of them fit. In sums of more the count of fragments is right nevertheless, by
 // which the host sees that they do not fit.
+//
+// Needs params.sums and params.sum_shift.
 #ifndef ZVO_SHADERS_VOXELIZE_SUMS_GLSL
 #define ZVO_SHADERS_VOXELIZE_SUMS_GLSL
 

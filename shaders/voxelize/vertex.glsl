@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Snaps a draw's triangle to the lattice. Every operation here is a single rounded addition or product, so that the
 // result is the same on every device.
+// Needs params.origin and params.lattice_scale, and params.scene as voxelize/loads.glsl does.
 #ifndef ZVO_SHADERS_VOXELIZE_VERTEX_GLSL
 #define ZVO_SHADERS_VOXELIZE_VERTEX_GLSL
 

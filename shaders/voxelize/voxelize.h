@@ -70,7 +70,7 @@ GPU_FUNCTION uint normalBias(uint sum_shift)
     return sum_shift < 16u ? 32768u >> sum_shift : 1u;
 }
 
-/// Likewise of an emissive voxel: 16-bit fractions of the scene's brightest emission.
+/// Sums of the emission of an emissive voxel: 16-bit fractions of the scene's brightest emission.
 struct EmissionSums
 {
     uint red;

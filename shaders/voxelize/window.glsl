@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The part of the grid that is voxelized: a cube of it, or the whole grid.
+// Needs params.window.
 #ifndef ZVO_SHADERS_VOXELIZE_WINDOW_GLSL
 #define ZVO_SHADERS_VOXELIZE_WINDOW_GLSL
 
