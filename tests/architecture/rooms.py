@@ -15,6 +15,8 @@ SEARCHED = {"include": ["include"], "shaders": ["shaders"], "src": ["src", "shad
 # Headers of the system, which do not count as a library. Those of C++ have no extension.
 SYSTEM = {"dlfcn.h", "fcntl.h", "fnmatch.h", "spawn.h", "stddef.h", "stdint.h", "sys/file.h", "sys/stat.h", "sys/wait.h",
           "unistd.h"}
+# Guards of files that are not named after their place: the entry of what hosts include.
+GUARDS = {"shaders/host/trace.glsl": "ZVO_TRACE_GLSL"}
 INCLUDE = re.compile(r'^[ \t]*#[ \t]*include[ \t]*([<"])([^>"]+)[>"]', re.MULTILINE)
 
 
@@ -72,6 +74,17 @@ def room_of(root, path):
     return path.resolve().relative_to(root.resolve()).parent.as_posix().removeprefix("src/")
 
 
+def find_unguarded(root):
+    """Files of GLSL functions without an include guard of their own name."""
+    faults = []
+    for path in sorted((root / "shaders").rglob("*.glsl")):
+        name = path.relative_to(root).as_posix()
+        guard = GUARDS.get(name, "ZVO_" + re.sub(r"\W", "_", name).upper())
+        if f"#ifndef {guard}\n#define {guard}\n" not in path.read_text(encoding="utf-8"):
+            faults.append(f"{name} has no guard {guard}")
+    return faults
+
+
 def find_cycle(arrows):
     """Rooms that lead back to the first of them, which is also the last; or nothing."""
     known = collections.defaultdict(list)
@@ -100,7 +113,7 @@ def find_faults(root, allowed_path):
     """What is wrong with the tree's arrows, a line each."""
     allowed, faults = read_allowed(allowed_path)
     arrows, rooms, more = read_arrows(root)
-    faults += more
+    faults += more + find_unguarded(root)
     name = allowed_path.name
     faults += [f"{name} does not have the room {room}" for room in rooms if room not in allowed]
     faults += [f"{name} has {room}, in which there is no source" for room in allowed if room not in rooms]
