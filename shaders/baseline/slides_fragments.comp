@@ -15,7 +15,7 @@ layout(constant_id = 3) const bool kEmit = false;
 
 const bool kThin = kCoverage == kCoverageThin;
 const bool kShades = kAttributes && kEmit;
-// What voxelize/surface.glsl asks for.
+// What voxelize/shading.glsl asks for.
 const uint kMode = kShades ? kModeAttributes : kModeCoverage;
 const bool kEmits = false;
 
