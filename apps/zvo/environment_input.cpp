@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "environment_input.h"
 
-#include "common/output.h"
+#include "common/progress.h"
 #include "core/base/read_file.h"
 #include "core/path/daylight.h"
 #include "io/image/hdr_image_io.h"

@@ -152,15 +152,16 @@ TEST(RadianceFurnace, FacesWithoutLightReflectThatBesideThem)
     std::uint32_t count = 0;
     for (const auto& [name, face] : facesOf(tracer.cache()))
     {
-        const auto found = before.find(name);
+        const test::FaceName& place = name; // clang 14 captures no structured binding
+        const auto found = before.find(place);
         const bool is_new = found == before.end() || found->second.samples == 0;
         // Without a brick that has light, a face shows its own.
         const bool is_alone = std::ranges::none_of(
             bricks,
             [&](const auto& brick)
             {
-                return brick.first.normal == name.normal &&
-                       glm::all(glm::lessThanEqual(glm::abs(glm::ivec3(brick.first.cell) - glm::ivec3(name.cell / 4U)),
+                return brick.first.normal == place.normal &&
+                       glm::all(glm::lessThanEqual(glm::abs(glm::ivec3(brick.first.cell) - glm::ivec3(place.cell / 4U)),
                                                    glm::ivec3(1)));
             });
         if (face.samples == 1 && is_new && is_alone)
