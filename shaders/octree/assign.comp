@@ -28,31 +28,58 @@ uint childrenBefore()
     return total;
 }
 
+// Four nodes that follow each other. Those past the end of the level are its last one, and have no children.
+struct FourNodes
+{
+    bvec4 are_nodes;
+    uvec4 nodes;
+    uvec4 masks_lo;
+    uvec4 counts; // of children
+};
+
+FourNodes loadNodes(uint first)
+{
+    FourNodes four;
+    uvec4 indices = uvec4(first, first + 1u, first + 2u, first + 3u);
+    four.are_nodes = lessThan(indices, uvec4(params.node_count));
+    four.nodes = params.first_node + min(indices, uvec4(params.node_count - 1u));
+    four.masks_lo = uvec4(params.nodes.data[four.nodes.x].mask_lo, params.nodes.data[four.nodes.y].mask_lo,
+                          params.nodes.data[four.nodes.z].mask_lo, params.nodes.data[four.nodes.w].mask_lo);
+    uvec4 masks_hi = uvec4(params.nodes.data[four.nodes.x].mask_hi, params.nodes.data[four.nodes.y].mask_hi,
+                           params.nodes.data[four.nodes.z].mask_hi, params.nodes.data[four.nodes.w].mask_hi);
+    four.counts = uvec4(bitCount(four.masks_lo) + bitCount(masks_hi)) * uvec4(four.are_nodes);
+    return four;
+}
+
+uint childrenOf(FourNodes four)
+{
+    return four.counts.x + four.counts.y + four.counts.z + four.counts.w;
+}
+
+void setBases(FourNodes four, uint base)
+{
+    bool tell_bricks = params.tell_bricks != 0u;
+    uvec3 bases = base + uvec3(four.counts.x, four.counts.x + four.counts.y, childrenOf(four) - four.counts.w);
+    if (four.are_nodes.x)
+        setBase(params.nodes, params.bricks, four.nodes.x, four.masks_lo.x, base, tell_bricks);
+    if (four.are_nodes.y)
+        setBase(params.nodes, params.bricks, four.nodes.y, four.masks_lo.y, bases.x, tell_bricks);
+    if (four.are_nodes.z)
+        setBase(params.nodes, params.bricks, four.nodes.z, four.masks_lo.z, bases.y, tell_bricks);
+    if (four.are_nodes.w)
+        setBase(params.nodes, params.bricks, four.nodes.w, four.masks_lo.w, bases.z, tell_bricks);
+}
+
 void main()
 {
     if (workgroupIndex() * kScanBlock >= params.node_count)
         return;
-    // Four nodes a thread, which are loaded together. Those past the end of the level are its last one.
     uint first = threadIndex() * kAssignItems;
-    uvec4 indices = uvec4(first, first + 1u, first + 2u, first + 3u);
-    bvec4 are_nodes = lessThan(indices, uvec4(params.node_count));
-    uvec4 nodes = params.first_node + min(indices, uvec4(params.node_count - 1u));
-    uvec4 masks_lo = uvec4(params.nodes.data[nodes.x].mask_lo, params.nodes.data[nodes.y].mask_lo,
-                           params.nodes.data[nodes.z].mask_lo, params.nodes.data[nodes.w].mask_lo);
-    uvec4 masks_hi = uvec4(params.nodes.data[nodes.x].mask_hi, params.nodes.data[nodes.y].mask_hi,
-                           params.nodes.data[nodes.z].mask_hi, params.nodes.data[nodes.w].mask_hi);
-    uvec4 counts = uvec4(bitCount(masks_lo) + bitCount(masks_hi)) * uvec4(are_nodes);
+    FourNodes low = loadNodes(first);
+    FourNodes high = loadNodes(first + 4u);
     uint base = params.first_child + childrenBefore();
     uint total;
-    base += workgroupExclusiveAdd(counts.x + counts.y + counts.z + counts.w, total);
-    uvec4 bases = base + uvec4(0u, counts.x, counts.x + counts.y, counts.x + counts.y + counts.z);
-    bool tell_bricks = params.tell_bricks != 0u;
-    if (are_nodes.x)
-        setBase(params.nodes, params.bricks, nodes.x, masks_lo.x, bases.x, tell_bricks);
-    if (are_nodes.y)
-        setBase(params.nodes, params.bricks, nodes.y, masks_lo.y, bases.y, tell_bricks);
-    if (are_nodes.z)
-        setBase(params.nodes, params.bricks, nodes.z, masks_lo.z, bases.z, tell_bricks);
-    if (are_nodes.w)
-        setBase(params.nodes, params.bricks, nodes.w, masks_lo.w, bases.w, tell_bricks);
+    base += workgroupExclusiveAdd(childrenOf(low) + childrenOf(high), total);
+    setBases(low, base);
+    setBases(high, base + childrenOf(low));
 }

@@ -17,8 +17,8 @@ const uint kScanItems = 16u;    // elements a thread of such a workgroup takes
 const uint kScanBlock = 1024u;  // elements a workgroup takes: kScanGroup * kScanItems
 const uint kRootGroup = 64u;    // threads of the only workgroup of a kernel that takes the root and its children
 const uint kRootLevels = 2u;    // levels that it takes
-const uint kAssignGroup = 256u; // threads of a workgroup of octree/assign
-const uint kAssignItems = 4u;   // nodes that a thread of it takes: kScanBlock in all
+const uint kAssignGroup = 128u; // threads of a workgroup of octree/assign
+const uint kAssignItems = 8u;   // nodes that a thread of it takes: kScanBlock in all
 
 /// The work items of one level of nodes. Element 0 is for the leaves, the last one for the root.
 struct LevelRange

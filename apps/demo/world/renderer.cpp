@@ -41,9 +41,9 @@ std::optional<std::uint32_t> Renderer::sampleCount() const
     return integrator() == Integrator::Path ? std::optional(m_renderer.pathCount()) : std::nullopt;
 }
 
-std::optional<std::uint32_t> Renderer::keptFrames()
+std::optional<std::uint32_t> Renderer::keptFrames() const
 {
-    return keepsLight(integrator()) ? std::optional(m_renderer.cache().frameCount()) : std::nullopt;
+    return keepsLight(integrator()) ? std::optional(m_renderer.cacheFrameCount()) : std::nullopt;
 }
 
 void Renderer::record(vk::FrameGraph& graph, const DeviceTree& tree, const Picture& picture)

@@ -51,12 +51,12 @@ public:
     /// Error{Memory}; then what pictures show stays as it was.
     void reserve(const DeviceTree& tree, const FrameOptions& options);
 
-    /// Records the passes of a whole frame, and makes image(): addSample(), denoise() and develop(). Light that is kept
+    /// Records the passes of a whole frame, and makes the picture: addSample(), denoise() and develop(). Light that is kept
     /// begins a new picture. ray_lists: as in PathTracer::addSample().
     void render(vk::FrameGraph& graph, const FrameSubject& subject, const FrameOptions& options,
                 vk::BufferOf<gpu::DispatchArgs>* ray_lists = nullptr);
 
-    /// Records the passes that make image() of primary rays, or add a sample to each pixel of samples(). Paths begin
+    /// Records the passes that make the picture of primary rays, or add a sample to each pixel of samples(). Paths begin
     /// anew by themselves (PathTracer::addSample()); light that is kept does so after beginPicture(), and its samples
     /// go through other points of the pixels, the same of each. Throws Error{Memory}. Cost: that of the integrator.
     void addSample(vk::FrameGraph& graph, const FrameSubject& subject, const FrameOptions& options,
@@ -65,7 +65,7 @@ public:
     /// Records the passes that smooth samples(), where options ask for it. Cost: pixels.
     void denoise(vk::FrameGraph& graph, const FrameOptions& options);
 
-    /// Records the passes that make image() of samples(). Primary rays have made it already. Cost: pixels.
+    /// Records the passes that make the picture of samples(). Primary rays have made it already. Cost: pixels.
     void develop(vk::FrameGraph& graph, const FrameOptions& options);
 
     /// Records the passes that make the node paths of a tree, if they are out of date. Primary rays begin with this.
@@ -102,10 +102,7 @@ public:
     /// What is known of the pixels beside the samples of paths, with PathOptions::features.
     [[nodiscard]] GuidedPicture guided() const { return m_paths->guided(); }
 
-    /// [width * height * texelWords()] the last picture.
-    [[nodiscard]] const vk::BufferOf<gpu::uint>& image() const { return m_tracer.buffers().image; }
-
-    /// The buffers of primary rays, and of the picture.
+    /// The buffers of primary rays, and of the last picture: `image`.
     [[nodiscard]] const TraceBuffers& buffers() const { return m_tracer.buffers(); }
 
     /// [1] the factor of the radiance in the last picture of samples.
@@ -113,6 +110,9 @@ public:
 
     /// The light that is kept, if samples bring it up to date.
     [[nodiscard]] RadianceCache& cache();
+
+    /// Frames that brought light up to date so far; 0 without light that is kept.
+    [[nodiscard]] std::uint32_t cacheFrameCount() const { return m_cache == nullptr ? 0 : m_cache->frameCount(); }
 
     /// Paths that were traced for each pixel so far; 0 without paths.
     [[nodiscard]] std::uint32_t pathCount() const { return m_paths == nullptr ? 0 : m_paths->sampleCount(); }
