@@ -171,23 +171,3 @@ std::span<const vk::EmbeddedKernel> @function_name@()
 ")
     target_sources(${target} PRIVATE ${modules} ${out_dir}/modules.S ${out_dir}/registry.cpp)
 endfunction()
-
-# zvo_list_kernels(TARGET ROOT FUNCTION [ONLY folder | WITHOUT folder]): adds a generated source to TARGET that defines
-# `std::vector<zvo::vk::KernelDeclaration> zvo::FUNCTION()`, what all headers below ROOT declare of kernels, those in a
-# folder of it, or those in the others.
-function(zvo_list_kernels target root function_name)
-    cmake_parse_arguments(arg "" "ONLY;WITHOUT" "" ${ARGN})
-    file(GLOB_RECURSE headers CONFIGURE_DEPENDS RELATIVE ${root} ${root}/*.h)
-    zvo_choose_files(headers "${arg_ONLY}" "${arg_WITHOUT}")
-    list(TRANSFORM headers PREPEND ${root}/)
-    list(JOIN headers "," joined)
-    set(output ${CMAKE_CURRENT_BINARY_DIR}/kernels/${target}_declarations.cpp)
-    add_custom_command(
-        OUTPUT ${output}
-        COMMAND ${CMAKE_COMMAND} -DHEADERS=${joined} -DFUNCTION=${function_name} -DOUTPUT=${output}
-                -P ${PROJECT_SOURCE_DIR}/cmake/ListKernels.cmake
-        DEPENDS ${headers} ${PROJECT_SOURCE_DIR}/cmake/ListKernels.cmake
-        COMMENT "kernels that headers declare"
-        VERBATIM)
-    target_sources(${target} PRIVATE ${output})
-endfunction()

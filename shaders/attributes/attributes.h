@@ -15,7 +15,7 @@ struct PackWordsParams // push constants of attributes/pack4
     GPU_PTR(uint) words;                 // [count]
     uint count;
 };
-GPU_KERNEL(attributes, pack4, Pack4, PackWordsParams)
+GPU_KERNEL(attributes, pack4, Pack4, PackWordsParams, GPU_NO_CONSTANTS)
 
 struct PackBlocksParams // push constants of attributes/block_colors and block_normals: one thread a block
 {
@@ -23,8 +23,8 @@ struct PackBlocksParams // push constants of attributes/block_colors and block_n
     GPU_PTR(uint) words;                 // [kBlockWords * ceil(count / kBlockVoxels)]
     uint count;
 };
-GPU_KERNEL(attributes, block_colors, BlockColors, PackBlocksParams)
-GPU_KERNEL(attributes, block_normals, BlockNormals, PackBlocksParams)
+GPU_KERNEL(attributes, block_colors, BlockColors, PackBlocksParams, GPU_NO_CONSTANTS)
+GPU_KERNEL(attributes, block_normals, BlockNormals, PackBlocksParams, GPU_NO_CONSTANTS)
 
 GPU_NAMESPACE_END
 

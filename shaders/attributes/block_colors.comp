@@ -7,15 +7,13 @@
 // integers.
 #extension GL_GOOGLE_include_directive : require
 #include "attributes/attributes.h"
+
+GPU_ENTRY(PackBlocksParams, GPU_NO_CONSTANTS);
+layout(local_size_x = kPackGroup) in;
+
 #include "attributes/block.glsl"
 #include "lib/attribute_formats.glsl"
 #include "lib/dispatch.glsl"
-
-layout(local_size_x = kPackGroup) in;
-layout(push_constant, scalar) uniform Push
-{
-    PackBlocksParams params;
-};
 
 const uint kRefinements = 2u;
 

@@ -5,15 +5,13 @@
 // Vectors, 2014, who round down or up by the same search). In integers: the angle is compared by its squared cosine.
 #extension GL_GOOGLE_include_directive : require
 #include "attributes/attributes.h"
+
+GPU_ENTRY(PackWordsParams, GPU_NO_CONSTANTS);
+layout(local_size_x = kPackGroup) in;
+
 #include "attributes/block.glsl"
 #include "lib/dispatch.glsl"
 #include "lib/normal.glsl"
-
-layout(local_size_x = kPackGroup) in;
-layout(push_constant, scalar) uniform Push
-{
-    PackWordsParams params;
-};
 
 uint64_t square(int a)
 {

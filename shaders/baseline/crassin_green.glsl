@@ -5,11 +5,8 @@
 
 #include "baseline/crassin_green.h"
 
+GPU_ENTRY(CrassinGreenParams, GPU_NO_CONSTANTS);
 layout(local_size_x = kCrassinGreenGroup) in;
-layout(push_constant, scalar) uniform Push
-{
-    CrassinGreenParams params;
-};
 
 const uint kNoNode = ~0u;
 

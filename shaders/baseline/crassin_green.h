@@ -30,13 +30,13 @@ struct CrassinGreenParams // push constants of all kernels of this file
     uint level; // that is taken; of baseline/crassin_green_next, the one above it
     uint depth;
 };
-GPU_KERNEL(baseline, crassin_green_flag, CrassinGreenFlag, CrassinGreenParams)
-GPU_KERNEL(baseline, crassin_green_allocate, CrassinGreenAllocate, CrassinGreenParams)
-GPU_KERNEL(baseline, crassin_green_next, CrassinGreenNext, CrassinGreenParams)
-GPU_KERNEL(baseline, crassin_green_clear, CrassinGreenClear, CrassinGreenParams)
-GPU_KERNEL(baseline, crassin_green_add, CrassinGreenAdd, CrassinGreenParams)
-GPU_KERNEL(baseline, crassin_green_resolve, CrassinGreenResolve, CrassinGreenParams)
-GPU_KERNEL(baseline, crassin_green_mipmap, CrassinGreenMipmap, CrassinGreenParams)
+GPU_KERNEL(baseline, crassin_green_flag, CrassinGreenFlag, CrassinGreenParams, GPU_NO_CONSTANTS)
+GPU_KERNEL(baseline, crassin_green_allocate, CrassinGreenAllocate, CrassinGreenParams, GPU_NO_CONSTANTS)
+GPU_KERNEL(baseline, crassin_green_next, CrassinGreenNext, CrassinGreenParams, GPU_NO_CONSTANTS)
+GPU_KERNEL(baseline, crassin_green_clear, CrassinGreenClear, CrassinGreenParams, GPU_NO_CONSTANTS)
+GPU_KERNEL(baseline, crassin_green_add, CrassinGreenAdd, CrassinGreenParams, GPU_NO_CONSTANTS)
+GPU_KERNEL(baseline, crassin_green_resolve, CrassinGreenResolve, CrassinGreenParams, GPU_NO_CONSTANTS)
+GPU_KERNEL(baseline, crassin_green_mipmap, CrassinGreenMipmap, CrassinGreenParams, GPU_NO_CONSTANTS)
 
 GPU_NAMESPACE_END
 

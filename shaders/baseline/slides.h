@@ -93,8 +93,8 @@ struct SlidesScanParams // push constants of baseline/slides_scan_sums and basel
     GPU_PTR(uint) partials; // [ceil(count / kSlidesBlock)] sums of blocks; to be scanned in between
     uint count;
 };
-GPU_KERNEL(baseline, slides_scan_sums, SlidesScanSums, SlidesScanParams)
-GPU_KERNEL(baseline, slides_scan_apply, SlidesScanApply, SlidesScanParams)
+GPU_KERNEL(baseline, slides_scan_sums, SlidesScanSums, SlidesScanParams, GPU_NO_CONSTANTS)
+GPU_KERNEL(baseline, slides_scan_apply, SlidesScanApply, SlidesScanParams, GPU_NO_CONSTANTS)
 
 struct SlidesScanTopParams // push constants of baseline/slides_scan_top: one workgroup
 {
@@ -102,7 +102,7 @@ struct SlidesScanTopParams // push constants of baseline/slides_scan_top: one wo
     GPU_PTR(uint) total;  // [1] gets the sum of all values, or kSlidesTooMany
     uint count;
 };
-GPU_KERNEL(baseline, slides_scan_top, SlidesScanTop, SlidesScanTopParams)
+GPU_KERNEL(baseline, slides_scan_top, SlidesScanTop, SlidesScanTopParams, GPU_NO_CONSTANTS)
 
 struct SlidesPiecesParams // push constants of baseline/slides_pieces
 {
@@ -117,11 +117,11 @@ struct SlidesPiecesParams // push constants of baseline/slides_pieces
     uint chunk_count;
     uint first_slot;
 };
-GPU_KERNEL_BEGIN(baseline, slides_pieces, SlidesPieces, SlidesPiecesParams)
-    GPU_CONSTANT(Coverage, coverage, kCoverageConservative)
-    GPU_CONSTANT(bool, list, false)
-    GPU_CONSTANT(bool, single, false)
-GPU_KERNEL_END
+#define BASELINE_SLIDES_PIECES_CONSTANTS(CONSTANT)                                                                     \
+    CONSTANT(0, Coverage, coverage, kCoverage, kCoverageConservative)                                                  \
+    CONSTANT(1, bool, list, kList, false)                                                                              \
+    CONSTANT(2, bool, single, kSingle, false) /* a chunk is one triangle, and a thread takes it */
+GPU_KERNEL(baseline, slides_pieces, SlidesPieces, SlidesPiecesParams, BASELINE_SLIDES_PIECES_CONSTANTS)
 
 struct SlidesFragmentsParams // push constants of baseline/slides_fragments
 {
@@ -135,12 +135,12 @@ struct SlidesFragmentsParams // push constants of baseline/slides_fragments
     uint depth;
     uint piece_count;
 };
-GPU_KERNEL_BEGIN(baseline, slides_fragments, SlidesFragments, SlidesFragmentsParams)
-    GPU_CONSTANT(Coverage, coverage, kCoverageConservative)
-    GPU_CONSTANT(MaterialClass, material_class, kClassPlain)
-    GPU_CONSTANT(bool, attributes, false)
-    GPU_CONSTANT(bool, emit, false)
-GPU_KERNEL_END
+#define BASELINE_SLIDES_FRAGMENTS_CONSTANTS(CONSTANT)                                                                  \
+    CONSTANT(0, Coverage, coverage, kCoverage, kCoverageConservative)                                                  \
+    CONSTANT(1, MaterialClass, material_class, kMaterialClass, kClassPlain)                                            \
+    CONSTANT(2, bool, attributes, kAttributes, false)                                                                  \
+    CONSTANT(3, bool, emit, kEmit, false)
+GPU_KERNEL(baseline, slides_fragments, SlidesFragments, SlidesFragmentsParams, BASELINE_SLIDES_FRAGMENTS_CONSTANTS)
 
 struct SlidesUniqueParams // push constants of baseline/slides_unique_count and baseline/slides_unique
 {
@@ -152,8 +152,8 @@ struct SlidesUniqueParams // push constants of baseline/slides_unique_count and 
     uint key_count;
     uint depth;
 };
-GPU_KERNEL(baseline, slides_unique_count, SlidesUniqueCount, SlidesUniqueParams)
-GPU_KERNEL(baseline, slides_unique, SlidesUnique, SlidesUniqueParams)
+GPU_KERNEL(baseline, slides_unique_count, SlidesUniqueCount, SlidesUniqueParams, GPU_NO_CONSTANTS)
+GPU_KERNEL(baseline, slides_unique, SlidesUnique, SlidesUniqueParams, GPU_NO_CONSTANTS)
 
 struct SlidesAverageParams // push constants of baseline/slides_average
 {
@@ -166,7 +166,7 @@ struct SlidesAverageParams // push constants of baseline/slides_average
     uint voxel_count;
     uint fragment_count;
 };
-GPU_KERNEL(baseline, slides_average, SlidesAverage, SlidesAverageParams)
+GPU_KERNEL(baseline, slides_average, SlidesAverage, SlidesAverageParams, GPU_NO_CONSTANTS)
 
 /// The cells of a level that become the children of nodes of the level above, in Morton order.
 struct SlidesParentsParams // push constants of baseline/slides_parents_count and baseline/slides_parents
@@ -182,12 +182,12 @@ struct SlidesParentsParams // push constants of baseline/slides_parents_count an
     uint cell_count;
     uint first_node; // number of the first parent
 };
-GPU_KERNEL(baseline, slides_parents_count, SlidesParentsCount, SlidesParentsParams)
-GPU_KERNEL_BEGIN(baseline, slides_parents, SlidesParents, SlidesParentsParams)
-    GPU_CONSTANT(uint, node_words, kSlidesSumNodeWords)
-    GPU_CONSTANT(bool, leaves, false)
-    GPU_CONSTANT(bool, dag, false)
-GPU_KERNEL_END
+GPU_KERNEL(baseline, slides_parents_count, SlidesParentsCount, SlidesParentsParams, GPU_NO_CONSTANTS)
+#define BASELINE_SLIDES_PARENTS_CONSTANTS(CONSTANT)                                                                    \
+    CONSTANT(0, uint, node_words, kNodeWords, kSlidesSumNodeWords)                                                     \
+    CONSTANT(1, bool, leaves, kLeaves, false) /* the cells are voxels */                                               \
+    CONSTANT(2, bool, dag, kDag, false)
+GPU_KERNEL(baseline, slides_parents, SlidesParents, SlidesParentsParams, BASELINE_SLIDES_PARENTS_CONSTANTS)
 
 /// The nodes of a level of which equal ones become one. A class of equal nodes is known by its slot in a hash table,
 /// which in the end holds the number of its first candidate.
@@ -205,14 +205,12 @@ struct SlidesClassParams // push constants of baseline/slides_class_*
     uint slot_mask;
     uint level; // of the nodes, from the voxels' parents on
 };
-GPU_KERNEL_BEGIN(baseline, slides_class_insert, SlidesClassInsert, SlidesClassParams)
-    GPU_CONSTANT(uint, node_words, kSlidesSumNodeWords)
-GPU_KERNEL_END
-GPU_KERNEL(baseline, slides_class_count, SlidesClassCount, SlidesClassParams)
-GPU_KERNEL_BEGIN(baseline, slides_class_nodes, SlidesClassNodes, SlidesClassParams)
-    GPU_CONSTANT(uint, node_words, kSlidesSumNodeWords)
-GPU_KERNEL_END
-GPU_KERNEL(baseline, slides_class_children, SlidesClassChildren, SlidesClassParams)
+#define BASELINE_SLIDES_CLASS_INSERT_CONSTANTS(CONSTANT) CONSTANT(0, uint, node_words, kNodeWords, kSlidesSumNodeWords)
+GPU_KERNEL(baseline, slides_class_insert, SlidesClassInsert, SlidesClassParams, BASELINE_SLIDES_CLASS_INSERT_CONSTANTS)
+GPU_KERNEL(baseline, slides_class_count, SlidesClassCount, SlidesClassParams, GPU_NO_CONSTANTS)
+#define BASELINE_SLIDES_CLASS_NODES_CONSTANTS(CONSTANT) CONSTANT(0, uint, node_words, kNodeWords, kSlidesSumNodeWords)
+GPU_KERNEL(baseline, slides_class_nodes, SlidesClassNodes, SlidesClassParams, BASELINE_SLIDES_CLASS_NODES_CONSTANTS)
+GPU_KERNEL(baseline, slides_class_children, SlidesClassChildren, SlidesClassParams, GPU_NO_CONSTANTS)
 
 /// Counts of a trace for the host.
 struct SlidesTraceStatus
@@ -232,13 +230,13 @@ struct SlidesTraceParams // push constants of baseline/slides_trace: a workgroup
     uint root;
     uint depth; // of the grid
 };
-GPU_KERNEL_BEGIN(baseline, slides_trace, SlidesTrace, SlidesTraceParams)
-    GPU_CONSTANT(uint, node_words, kSlidesSumNodeWords)
-    GPU_CONSTANT(bool, push_children, false)
-    GPU_CONSTANT(bool, stop_at_far_side, true)
-    GPU_CONSTANT(bool, skip_behind, true)
-    GPU_CONSTANT(bool, orthographic, false)
-GPU_KERNEL_END
+#define BASELINE_SLIDES_TRACE_CONSTANTS(CONSTANT)                                                                      \
+    CONSTANT(0, uint, node_words, kNodeWords, kSlidesSumNodeWords)                                                     \
+    CONSTANT(1, bool, push_children, kPushChildren, false)                                                             \
+    CONSTANT(2, bool, stop_at_far_side, kStopAtFarSide, true)                                                          \
+    CONSTANT(3, bool, skip_behind, kSkipBehind, true)                                                                  \
+    CONSTANT(4, bool, orthographic, kOrthographic, false)
+GPU_KERNEL(baseline, slides_trace, SlidesTrace, SlidesTraceParams, BASELINE_SLIDES_TRACE_CONSTANTS)
 
 GPU_NAMESPACE_END
 

@@ -4,14 +4,12 @@
 // out and noted.
 #extension GL_GOOGLE_include_directive : require
 #include "baseline/slides.h"
+
+GPU_ENTRY(SlidesAverageParams, GPU_NO_CONSTANTS);
+layout(local_size_x = kSlidesGroup) in;
+
 #include "lib/bound.glsl"
 #include "lib/dispatch.glsl"
-
-layout(local_size_x = kSlidesGroup) in;
-layout(push_constant, scalar) uniform Push
-{
-    SlidesAverageParams params;
-};
 
 #define COLOR_BINDING 0
 #include "voxelize/resolve.glsl"

@@ -1,15 +1,11 @@
 // SPDX-License-Identifier: MIT
-// What the kernels that merge equal nodes share.
+// What the kernels that merge equal nodes share. Needs GPU_ENTRY with SlidesClassParams.
 #ifndef ZVO_SHADERS_BASELINE_SLIDES_CLASS_GLSL
 #define ZVO_SHADERS_BASELINE_SLIDES_CLASS_GLSL
 
 #include "baseline/slides.h"
 
 layout(local_size_x = kSlidesGroup) in;
-layout(push_constant, scalar) uniform Push
-{
-    SlidesClassParams params;
-};
 
 bool isFirstOfClass(uint candidate)
 {

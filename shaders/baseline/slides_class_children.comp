@@ -2,6 +2,10 @@
 // SPDX-License-Identifier: MIT
 // Gives each candidate the number of the node that its class became.
 #extension GL_GOOGLE_include_directive : require
+#include "baseline/slides.h"
+
+GPU_ENTRY(SlidesClassParams, GPU_NO_CONSTANTS);
+
 #include "baseline/slides_class.glsl"
 #include "lib/dispatch.glsl"
 

@@ -5,10 +5,12 @@
 // by an earlier pass, so a slot is taken by one compare-and-swap of a candidate's number, and what is in it can be
 // compared at once. A slot that is taken stays with its class.
 #extension GL_GOOGLE_include_directive : require
+#include "baseline/slides.h"
+
+GPU_ENTRY(SlidesClassParams, BASELINE_SLIDES_CLASS_INSERT_CONSTANTS);
+
 #include "baseline/slides_class.glsl"
 #include "lib/dispatch.glsl"
-
-layout(constant_id = 0) const uint kNodeWords = kSlidesSumNodeWords;
 
 const uint kComparedWords = 9u; // mask and children: prefix sums follow from them
 

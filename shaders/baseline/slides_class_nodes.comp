@@ -2,11 +2,13 @@
 // SPDX-License-Identifier: MIT
 // Makes a node of the first candidate of each class.
 #extension GL_GOOGLE_include_directive : require
+#include "baseline/slides.h"
+
+GPU_ENTRY(SlidesClassParams, BASELINE_SLIDES_CLASS_NODES_CONSTANTS);
+
 #include "baseline/slides_class.glsl"
 #include "baseline/slides_leaders.glsl"
 #include "lib/dispatch.glsl"
-
-layout(constant_id = 0) const uint kNodeWords = kSlidesSumNodeWords;
 
 void main()
 {

@@ -4,26 +4,19 @@
 // attributes behind those of the pieces before.
 #extension GL_GOOGLE_include_directive : require
 #include "baseline/slides.h"
+
+GPU_ENTRY(SlidesFragmentsParams, BASELINE_SLIDES_FRAGMENTS_CONSTANTS);
+layout(local_size_x = kSlidesGroup) in;
+
 #include "lib/bound.glsl"
 #include "lib/dispatch.glsl"
 #include "lib/morton.glsl"
-
-layout(constant_id = 0) const uint kCoverage = kCoverageConservative;
-layout(constant_id = 1) const uint kMaterialClass = kClassPlain;
-layout(constant_id = 2) const bool kAttributes = false;
-layout(constant_id = 3) const bool kEmit = false;
 
 const bool kThin = kCoverage == kCoverageThin;
 const bool kShades = kAttributes && kEmit;
 // What voxelize/shading.glsl asks for.
 const uint kMode = kShades ? kModeAttributes : kModeCoverage;
 const bool kEmits = false;
-
-layout(local_size_x = kSlidesGroup) in;
-layout(push_constant, scalar) uniform Push
-{
-    SlidesFragmentsParams params;
-};
 
 #define COLOR_BINDING 15
 #define EDGE_INT int64_t

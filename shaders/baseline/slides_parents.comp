@@ -4,20 +4,14 @@
 // that is the nodes; of a DAG, the candidates of which equal ones are merged.
 #extension GL_GOOGLE_include_directive : require
 #include "baseline/slides.h"
+
+GPU_ENTRY(SlidesParentsParams, BASELINE_SLIDES_PARENTS_CONSTANTS);
+layout(local_size_x = kSlidesGroup) in;
+
 #include "baseline/slides_leaders.glsl"
 #include "lib/dispatch.glsl"
 
-layout(constant_id = 0) const uint kNodeWords = kSlidesSumNodeWords;
-layout(constant_id = 1) const bool kLeaves = false; // the cells are voxels
-layout(constant_id = 2) const bool kDag = false;
-
 const bool kHasSums = kNodeWords == kSlidesSumNodeWords;
-
-layout(local_size_x = kSlidesGroup) in;
-layout(push_constant, scalar) uniform Push
-{
-    SlidesParentsParams params;
-};
 
 void makeParent(uint64_t parent, uint first_cell, uint place)
 {

@@ -3,14 +3,12 @@
 // Counts the parents of the cells of a level.
 #extension GL_GOOGLE_include_directive : require
 #include "baseline/slides.h"
+
+GPU_ENTRY(SlidesParentsParams, GPU_NO_CONSTANTS);
+layout(local_size_x = kSlidesGroup) in;
+
 #include "baseline/slides_leaders.glsl"
 #include "lib/dispatch.glsl"
-
-layout(local_size_x = kSlidesGroup) in;
-layout(push_constant, scalar) uniform Push
-{
-    SlidesParentsParams params;
-};
 
 void main()
 {

@@ -3,20 +3,14 @@
 // Divides triangles into pieces that a thread walks: counts them, then lists them.
 #extension GL_GOOGLE_include_directive : require
 #include "baseline/slides.h"
+
+GPU_ENTRY(SlidesPiecesParams, BASELINE_SLIDES_PIECES_CONSTANTS);
+layout(local_size_x = kChunkTriangles) in;
+
 #include "lib/bound.glsl"
 #include "lib/dispatch.glsl"
 
-layout(constant_id = 0) const uint kCoverage = kCoverageConservative;
-layout(constant_id = 1) const bool kList = false;
-layout(constant_id = 2) const bool kSingle = false; // a chunk is one triangle, and a thread takes it
-
 const bool kThin = kCoverage == kCoverageThin;
-
-layout(local_size_x = kChunkTriangles) in;
-layout(push_constant, scalar) uniform Push
-{
-    SlidesPiecesParams params;
-};
 
 #define COLOR_BINDING 15
 #include "baseline/slides_triangle.glsl"

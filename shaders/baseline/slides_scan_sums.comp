@@ -3,15 +3,13 @@
 // Sums up each block of kSlidesBlock values.
 #extension GL_GOOGLE_include_directive : require
 #include "baseline/slides.h"
+
+GPU_ENTRY(SlidesScanParams, GPU_NO_CONSTANTS);
+layout(local_size_x = kSlidesGroup) in;
+
 #define SCAN_GROUP kSlidesGroup
 #include "lib/dispatch.glsl"
 #include "lib/scan.glsl"
-
-layout(local_size_x = kSlidesGroup) in;
-layout(push_constant, scalar) uniform Push
-{
-    SlidesScanParams params;
-};
 
 void main()
 {

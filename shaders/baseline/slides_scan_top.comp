@@ -3,14 +3,12 @@
 // Exclusive prefix sum in place, by one workgroup that walks over the values.
 #extension GL_GOOGLE_include_directive : require
 #include "baseline/slides.h"
+
+GPU_ENTRY(SlidesScanTopParams, GPU_NO_CONSTANTS);
+layout(local_size_x = kSlidesGroup) in;
+
 #define SCAN_GROUP kSlidesGroup
 #include "lib/scan.glsl"
-
-layout(local_size_x = kSlidesGroup) in;
-layout(push_constant, scalar) uniform Push
-{
-    SlidesScanTopParams params;
-};
 
 void main()
 {

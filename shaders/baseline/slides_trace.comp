@@ -15,6 +15,10 @@
 #extension GL_GOOGLE_include_directive : require
 #include "baseline/slides.h"
 #include "trace/trace.h"
+
+GPU_ENTRY(SlidesTraceParams, BASELINE_SLIDES_TRACE_CONSTANTS);
+layout(local_size_x = kTilePixels) in;
+
 #include "lib/bound.glsl"
 #include "lib/camera.glsl"
 #include "lib/dispatch.glsl"
@@ -22,19 +26,7 @@
 #include "lib/morton.glsl"
 #include "lib/ray.glsl"
 
-layout(constant_id = 0) const uint kNodeWords = kSlidesSumNodeWords;
-layout(constant_id = 1) const bool kPushChildren = false;
-layout(constant_id = 2) const bool kStopAtFarSide = true;
-layout(constant_id = 3) const bool kSkipBehind = true;
-layout(constant_id = 4) const bool kOrthographic = false;
-
 const bool kHasSums = kNodeWords == kSlidesSumNodeWords;
-
-layout(local_size_x = kTilePixels) in;
-layout(push_constant, scalar) uniform Push
-{
-    SlidesTraceParams params;
-};
 
 #include "baseline/slides_traverse.glsl"
 

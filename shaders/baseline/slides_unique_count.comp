@@ -4,14 +4,12 @@
 // the highest one in which the voxel before it is not.
 #extension GL_GOOGLE_include_directive : require
 #include "baseline/slides.h"
+
+GPU_ENTRY(SlidesUniqueParams, GPU_NO_CONSTANTS);
+layout(local_size_x = kSlidesGroup) in;
+
 #include "baseline/slides_leaders.glsl"
 #include "lib/dispatch.glsl"
-
-layout(local_size_x = kSlidesGroup) in;
-layout(push_constant, scalar) uniform Push
-{
-    SlidesUniqueParams params;
-};
 
 shared uint s_leaders[kSlidesLevels];
 

@@ -22,7 +22,7 @@ struct SortCountParams // push constants of baseline/sort_count
     uint block_count; // ceil(key_count / kSortBlock)
     uint shift;       // of the digit in a key
 };
-GPU_KERNEL(baseline, sort_count, SortCount, SortCountParams)
+GPU_KERNEL(baseline, sort_count, SortCount, SortCountParams, GPU_NO_CONSTANTS)
 
 struct SortScatterParams // push constants of baseline/sort_scatter
 {
@@ -35,9 +35,9 @@ struct SortScatterParams // push constants of baseline/sort_scatter
     uint block_count;
     uint shift;
 };
-GPU_KERNEL_BEGIN(baseline, sort_scatter, SortScatter, SortScatterParams)
-    GPU_CONSTANT(bool, first, false)
-GPU_KERNEL_END
+#define BASELINE_SORT_SCATTER_CONSTANTS(CONSTANT)                                                                      \
+    CONSTANT(0, bool, first, kFirst, false) /* of all passes: keys have not been moved yet */
+GPU_KERNEL(baseline, sort_scatter, SortScatter, SortScatterParams, BASELINE_SORT_SCATTER_CONSTANTS)
 
 GPU_NAMESPACE_END
 

@@ -3,13 +3,11 @@
 // Counts the keys of each block by their digit.
 #extension GL_GOOGLE_include_directive : require
 #include "baseline/sort.h"
-#include "lib/dispatch.glsl"
 
+GPU_ENTRY(SortCountParams, GPU_NO_CONSTANTS);
 layout(local_size_x = kSortGroup) in;
-layout(push_constant, scalar) uniform Push
-{
-    SortCountParams params;
-};
+
+#include "lib/dispatch.glsl"
 
 shared uint s_counts[kSortDigits];
 

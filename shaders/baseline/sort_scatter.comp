@@ -9,15 +9,11 @@
 #extension GL_KHR_shader_subgroup_ballot : require
 #extension GL_KHR_shader_subgroup_shuffle : require
 #include "baseline/sort.h"
-#include "lib/dispatch.glsl"
 
-layout(constant_id = 0) const bool kFirst = false; // of all passes: keys have not been moved yet
-
+GPU_ENTRY(SortScatterParams, BASELINE_SORT_SCATTER_CONSTANTS);
 layout(local_size_x = kSortGroup) in;
-layout(push_constant, scalar) uniform Push
-{
-    SortScatterParams params;
-};
+
+#include "lib/dispatch.glsl"
 
 // Two digits a word, as a block has fewer keys than 16 bits count.
 const uint kWords = kSortDigits / 2u;

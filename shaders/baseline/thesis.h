@@ -80,9 +80,8 @@ struct ThesisSetupParams // push constants of baseline/thesis_setup
     uint first_triangle;  // where those of the first chunk go
     uint cells_per_part;  // as in ThesisVoxelizeParams
 };
-GPU_KERNEL_BEGIN(baseline, thesis_setup, ThesisSetup, ThesisSetupParams)
-    GPU_CONSTANT(Coverage, coverage, kCoverageConservative)
-GPU_KERNEL_END
+#define BASELINE_THESIS_SETUP_CONSTANTS(CONSTANT) CONSTANT(0, Coverage, coverage, kCoverage, kCoverageConservative)
+GPU_KERNEL(baseline, thesis_setup, ThesisSetup, ThesisSetupParams, BASELINE_THESIS_SETUP_CONSTANTS)
 
 struct ThesisVoxelizeParams // push constants of baseline/thesis_voxelize
 {
@@ -104,12 +103,12 @@ struct ThesisVoxelizeParams // push constants of baseline/thesis_voxelize
     uint fragment_capacity;
     uint sum_shift; // 0
 };
-GPU_KERNEL_BEGIN(baseline, thesis_voxelize, ThesisVoxelize, ThesisVoxelizeParams)
-    GPU_CONSTANT(Coverage, coverage, kCoverageConservative)
-    GPU_CONSTANT(MaterialClass, material_class, kClassPlain)
-    GPU_CONSTANT(uint, target, 0u)
-    GPU_CONSTANT(bool, bounds, false)
-GPU_KERNEL_END
+#define BASELINE_THESIS_VOXELIZE_CONSTANTS(CONSTANT)                                                                   \
+    CONSTANT(0, Coverage, coverage, kCoverage, kCoverageConservative)                                                  \
+    CONSTANT(1, MaterialClass, material_class, kMaterialClass, kClassPlain)                                            \
+    CONSTANT(2, uint, target, kTarget, 0u)                                                                             \
+    CONSTANT(3, bool, bounds, kBounds, false) /* find the smallest and the largest Morton code */
+GPU_KERNEL(baseline, thesis_voxelize, ThesisVoxelize, ThesisVoxelizeParams, BASELINE_THESIS_VOXELIZE_CONSTANTS)
 
 struct ThesisResolveParams // push constants of baseline/thesis_resolve
 {
@@ -119,7 +118,7 @@ struct ThesisResolveParams // push constants of baseline/thesis_resolve
     uint first_cell;
     uint cell_count;
 };
-GPU_KERNEL(baseline, thesis_resolve, ThesisResolve, ThesisResolveParams)
+GPU_KERNEL(baseline, thesis_resolve, ThesisResolve, ThesisResolveParams, GPU_NO_CONSTANTS)
 
 struct ThesisCountParams // push constants of baseline/thesis_count
 {
@@ -131,9 +130,8 @@ struct ThesisCountParams // push constants of baseline/thesis_count
     uint first_child;
     uint child_count;
 };
-GPU_KERNEL_BEGIN(baseline, thesis_count, ThesisCount, ThesisCountParams)
-    GPU_CONSTANT(bool, voxels, false)
-GPU_KERNEL_END
+#define BASELINE_THESIS_COUNT_CONSTANTS(CONSTANT) CONSTANT(0, bool, voxels, kVoxels, false)
+GPU_KERNEL(baseline, thesis_count, ThesisCount, ThesisCountParams, BASELINE_THESIS_COUNT_CONSTANTS)
 
 struct ThesisLevelParams // push constants of baseline/thesis_level
 {
@@ -153,11 +151,11 @@ struct ThesisLevelParams // push constants of baseline/thesis_level
     uint node_capacity;
     uint static_root; // of the octree that is merged; kMerge only
 };
-GPU_KERNEL_BEGIN(baseline, thesis_level, ThesisLevel, ThesisLevelParams)
-    GPU_CONSTANT(bool, voxels, false)
-    GPU_CONSTANT(bool, atomic, false)
-    GPU_CONSTANT(bool, merge, false)
-GPU_KERNEL_END
+#define BASELINE_THESIS_LEVEL_CONSTANTS(CONSTANT)                                                                      \
+    CONSTANT(0, bool, voxels, kVoxels, false)                                                                          \
+    CONSTANT(1, bool, atomic, kAtomic, false) /* tiles are numbered by an atomic counter */                            \
+    CONSTANT(2, bool, merge, kMerge, false)
+GPU_KERNEL(baseline, thesis_level, ThesisLevel, ThesisLevelParams, BASELINE_THESIS_LEVEL_CONSTANTS)
 
 struct ThesisTraceParams // push constants of baseline/thesis_trace
 {
@@ -170,9 +168,8 @@ struct ThesisTraceParams // push constants of baseline/thesis_trace
     uint root;
     uint depth;
 };
-GPU_KERNEL_BEGIN(baseline, thesis_trace, ThesisTrace, ThesisTraceParams)
-    GPU_CONSTANT(bool, orthographic, false)
-GPU_KERNEL_END
+#define BASELINE_THESIS_TRACE_CONSTANTS(CONSTANT) CONSTANT(0, bool, orthographic, kOrthographic, false)
+GPU_KERNEL(baseline, thesis_trace, ThesisTrace, ThesisTraceParams, BASELINE_THESIS_TRACE_CONSTANTS)
 
 GPU_NAMESPACE_END
 

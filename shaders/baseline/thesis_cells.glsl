@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: MIT
 // The dense cells of a level and their eight children each.
-// Needs params.voxels, params.children, params.first_cell, params.cell_count, params.first_child and
+// Needs kVoxels, params.voxels, params.children, params.first_cell, params.cell_count, params.first_child and
 // params.child_count.
 #ifndef ZVO_SHADERS_BASELINE_THESIS_CELLS_GLSL
 #define ZVO_SHADERS_BASELINE_THESIS_CELLS_GLSL
 
 #include "baseline/pointer_octree.h"
 #include "shared/octree.h"
-
-layout(constant_id = 0) const bool kVoxels = false; // the children are voxels
 
 // Whether something is at a child of the level below, which lies between the first and the last that is occupied.
 bool isOccupied(uint child)

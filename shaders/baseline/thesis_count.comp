@@ -4,16 +4,13 @@
 // nodes have the same numbers on every run; the thesis counts with an atomic while it builds (baseline/thesis_level).
 #extension GL_GOOGLE_include_directive : require
 #include "baseline/thesis.h"
+
+GPU_ENTRY(ThesisCountParams, BASELINE_THESIS_COUNT_CONSTANTS);
+layout(local_size_x = kThesisLevelGroup) in;
+
 #define SCAN_GROUP kThesisLevelGroup
 #include "lib/dispatch.glsl"
 #include "lib/scan.glsl"
-
-layout(local_size_x = kThesisLevelGroup) in;
-layout(push_constant, scalar) uniform Push
-{
-    ThesisCountParams params;
-};
-
 #include "baseline/thesis_cells.glsl"
 
 void main()

@@ -11,20 +11,14 @@
 // saves passes.
 #extension GL_GOOGLE_include_directive : require
 #include "baseline/thesis.h"
+
+GPU_ENTRY(ThesisLevelParams, BASELINE_THESIS_LEVEL_CONSTANTS);
+layout(local_size_x = kThesisLevelGroup) in;
+
 #define SCAN_GROUP kThesisLevelGroup
 #include "baseline/mean.glsl"
 #include "lib/dispatch.glsl"
 #include "lib/scan.glsl"
-
-layout(constant_id = 1) const bool kAtomic = false; // tiles are numbered by an atomic counter
-layout(constant_id = 2) const bool kMerge = false;
-
-layout(local_size_x = kThesisLevelGroup) in;
-layout(push_constant, scalar) uniform Push
-{
-    ThesisLevelParams params;
-};
-
 #include "baseline/thesis_cells.glsl"
 
 // The first child of the static node at a cell; 0 if there is none.

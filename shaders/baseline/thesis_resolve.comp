@@ -3,14 +3,11 @@
 // Makes cells of the sums over their fragments, for comparisons with zvo: the thesis keeps the last fragment instead.
 #extension GL_GOOGLE_include_directive : require
 #include "baseline/thesis.h"
-#include "lib/dispatch.glsl"
 
+GPU_ENTRY(ThesisResolveParams, GPU_NO_CONSTANTS);
 layout(local_size_x = kThesisGroup) in;
-layout(push_constant, scalar) uniform Push
-{
-    ThesisResolveParams params;
-};
 
+#include "lib/dispatch.glsl"
 #include "voxelize/resolve.glsl"
 
 void main()

@@ -5,18 +5,14 @@
 // here vertices are snapped to zvo's lattice, and everything is an integer, so that voxels can be compared.
 #extension GL_GOOGLE_include_directive : require
 #include "baseline/thesis.h"
+
+GPU_ENTRY(ThesisSetupParams, BASELINE_THESIS_SETUP_CONSTANTS);
+layout(local_size_x = kThesisGroup) in;
+
 #include "lib/arithmetic.glsl"
 #include "lib/dispatch.glsl"
 
-layout(constant_id = 0) const uint kCoverage = kCoverageConservative;
-
 const bool kThin = kCoverage == kCoverageThin;
-
-layout(local_size_x = kThesisGroup) in;
-layout(push_constant, scalar) uniform Push
-{
-    ThesisSetupParams params;
-};
 
 #include "baseline/thesis_triangle.glsl"
 #include "voxelize/loads.glsl"

@@ -10,18 +10,14 @@
 // tile and a mask of the children that are still to be visited.
 #extension GL_GOOGLE_include_directive : require
 #include "baseline/thesis.h"
+
+GPU_ENTRY(ThesisTraceParams, BASELINE_THESIS_TRACE_CONSTANTS);
+layout(local_size_x = kThesisTileEdge * kThesisTileEdge) in;
+
 #include "lib/camera.glsl"
 #include "lib/dispatch.glsl"
 #include "lib/hit.glsl"
 #include "lib/ray.glsl"
-
-layout(constant_id = 0) const bool kOrthographic = false;
-
-layout(local_size_x = kThesisTileEdge * kThesisTileEdge) in;
-layout(push_constant, scalar) uniform Push
-{
-    ThesisTraceParams params;
-};
 
 // A ray, mirrored, and the planes between voxels: bits of floats in [1, 2].
 struct MirroredRay

@@ -5,23 +5,16 @@
 // there a thread tests a part of its box, and further dispatches test the other parts of the boxes that have some.
 #extension GL_GOOGLE_include_directive : require
 #include "baseline/thesis.h"
+
+GPU_ENTRY(ThesisVoxelizeParams, BASELINE_THESIS_VOXELIZE_CONSTANTS);
+layout(local_size_x = kThesisGroup) in;
+
 #include "lib/dispatch.glsl"
 #include "lib/morton.glsl"
-
-layout(constant_id = 0) const uint kCoverage = kCoverageConservative;
-layout(constant_id = 1) const uint kMaterialClass = kClassPlain;
-layout(constant_id = 2) const uint kTarget = kThesisOccupancy;
-layout(constant_id = 3) const bool kBounds = false; // find the smallest and the largest Morton code
 
 const bool kThin = kCoverage == kCoverageThin;
 const uint kMode = kTarget == kThesisOccupancy ? kModeCoverage : kModeAttributes;
 const bool kEmits = false;
-
-layout(local_size_x = kThesisGroup) in;
-layout(push_constant, scalar) uniform Push
-{
-    ThesisVoxelizeParams params;
-};
 
 #include "baseline/thesis_triangle.glsl"
 #include "voxelize/loads.glsl"

@@ -92,11 +92,11 @@ struct DeformParams // push constants of deform/vertices
     uint first_chunk;
     uint chunk_count;
 };
-GPU_KERNEL_BEGIN(deform, vertices, Vertices, DeformParams)
-    GPU_CONSTANT(bool, morphed, false)
-    GPU_CONSTANT(bool, skinned, false)
-    GPU_CONSTANT(bool, normals, false)
-GPU_KERNEL_END
+#define DEFORM_VERTICES_CONSTANTS(CONSTANT)                                                                            \
+    CONSTANT(0, bool, morphed, kMorphed, false)                                                                        \
+    CONSTANT(1, bool, skinned, kSkinned, false)                                                                        \
+    CONSTANT(2, bool, normals, kNormals, false)
+GPU_KERNEL(deform, vertices, Vertices, DeformParams, DEFORM_VERTICES_CONSTANTS)
 
 GPU_NAMESPACE_END
 

@@ -4,18 +4,12 @@
 // (core/scene/deform.cpp) gives the same bits.
 #extension GL_GOOGLE_include_directive : require
 #include "deform/deform.h"
+
+GPU_ENTRY(DeformParams, DEFORM_VERTICES_CONSTANTS);
+layout(local_size_x = kDeformGroup) in;
+
 #include "deform/exact.glsl"
 #include "lib/dispatch.glsl"
-
-layout(constant_id = 0) const bool kMorphed = false;
-layout(constant_id = 1) const bool kSkinned = false;
-layout(constant_id = 2) const bool kNormals = false;
-
-layout(local_size_x = kDeformGroup) in;
-layout(push_constant, scalar) uniform Push
-{
-    DeformParams params;
-};
 
 // Adds to value the deltas of count terms, from first on.
 vec3 addTerms(vec3 value, uint first, uint count, uint vertex)

@@ -3,16 +3,14 @@
 // Divides the light of each pixel by its albedo, and makes its guide.
 #extension GL_GOOGLE_include_directive : require
 #include "denoise/denoise.h"
+
+GPU_ENTRY(DenoiseDemodulateParams, GPU_NO_CONSTANTS);
+layout(local_size_x = kPathGroup) in;
+
 #include "denoise/guide.glsl"
 #include "lib/color.glsl"
 #include "lib/dispatch.glsl"
 #include "path/pixel.glsl"
-
-layout(local_size_x = kPathGroup) in;
-layout(push_constant, scalar) uniform Push
-{
-    DenoiseDemodulateParams params;
-};
 
 void main()
 {

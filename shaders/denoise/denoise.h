@@ -66,7 +66,7 @@ struct DenoiseDemodulateParams // push constants of denoise/demodulate: a thread
     uint height;
     float sample_count;
 };
-GPU_KERNEL(denoise, demodulate, Demodulate, DenoiseDemodulateParams)
+GPU_KERNEL(denoise, demodulate, Demodulate, DenoiseDemodulateParams, GPU_NO_CONSTANTS)
 
 struct DenoiseReprojectParams // push constants of denoise/reproject: a thread a pixel
 {
@@ -82,10 +82,10 @@ struct DenoiseReprojectParams // push constants of denoise/reproject: a thread a
     float history_max; // samples of the earlier picture that count at most
     float edge;        // of a voxel, unit space
 };
-GPU_KERNEL_BEGIN(denoise, reproject, Reproject, DenoiseReprojectParams)
-    GPU_CONSTANT(bool, orthographic, false)
-    GPU_CONSTANT(bool, old_orthographic, false)
-GPU_KERNEL_END
+#define DENOISE_REPROJECT_CONSTANTS(CONSTANT)                                                                          \
+    CONSTANT(0, bool, orthographic, kOrthographic, false)                                                              \
+    CONSTANT(1, bool, old_orthographic, kOldOrthographic, false)
+GPU_KERNEL(denoise, reproject, Reproject, DenoiseReprojectParams, DENOISE_REPROJECT_CONSTANTS)
 
 struct DenoiseFilterParams // push constants of denoise/estimate and denoise/filter: a thread a pixel
 {
@@ -101,12 +101,10 @@ struct DenoiseFilterParams // push constants of denoise/estimate and denoise/fil
     uint step;  // pixels between two of the filter's
     float edge; // of a voxel, unit space
 };
-GPU_KERNEL_BEGIN(denoise, estimate, Estimate, DenoiseFilterParams)
-    GPU_CONSTANT(bool, orthographic, false)
-GPU_KERNEL_END
-GPU_KERNEL_BEGIN(denoise, filter, Filter, DenoiseFilterParams)
-    GPU_CONSTANT(bool, orthographic, false)
-GPU_KERNEL_END
+#define DENOISE_ESTIMATE_CONSTANTS(CONSTANT) CONSTANT(0, bool, orthographic, kOrthographic, false)
+GPU_KERNEL(denoise, estimate, Estimate, DenoiseFilterParams, DENOISE_ESTIMATE_CONSTANTS)
+#define DENOISE_FILTER_CONSTANTS(CONSTANT) CONSTANT(0, bool, orthographic, kOrthographic, false)
+GPU_KERNEL(denoise, filter, Filter, DenoiseFilterParams, DENOISE_FILTER_CONSTANTS)
 
 struct DenoiseModulateParams // push constants of denoise/modulate: a thread a pixel
 {
@@ -117,7 +115,7 @@ struct DenoiseModulateParams // push constants of denoise/modulate: a thread a p
     uint height;
     float sample_part; // 1 / number of samples
 };
-GPU_KERNEL(denoise, modulate, Modulate, DenoiseModulateParams)
+GPU_KERNEL(denoise, modulate, Modulate, DenoiseModulateParams, GPU_NO_CONSTANTS)
 
 GPU_NAMESPACE_END
 

@@ -5,17 +5,13 @@
 // differ.
 #extension GL_GOOGLE_include_directive : require
 #include "denoise/denoise.h"
+
+GPU_ENTRY(DenoiseFilterParams, DENOISE_ESTIMATE_CONSTANTS);
+layout(local_size_x = kDenoiseTile * kDenoiseTile) in;
+
 #include "denoise/guide.glsl"
 #include "lib/color.glsl"
 #include "lib/dispatch.glsl"
-
-layout(constant_id = 0) const bool kOrthographic = false;
-
-layout(local_size_x = kDenoiseTile * kDenoiseTile) in;
-layout(push_constant, scalar) uniform Push
-{
-    DenoiseFilterParams params;
-};
 
 // A place at a pixel, from the camera's origin.
 vec3 placeOf(ivec2 pixel, float depth)

@@ -3,17 +3,13 @@
 // One level of the filter: 5x5 pixels that are params.step pixels apart.
 #extension GL_GOOGLE_include_directive : require
 #include "denoise/denoise.h"
+
+GPU_ENTRY(DenoiseFilterParams, DENOISE_FILTER_CONSTANTS);
+layout(local_size_x = kDenoiseTile * kDenoiseTile) in;
+
 #include "denoise/guide.glsl"
 #include "lib/color.glsl"
 #include "lib/dispatch.glsl"
-
-layout(constant_id = 0) const bool kOrthographic = false;
-
-layout(local_size_x = kDenoiseTile * kDenoiseTile) in;
-layout(push_constant, scalar) uniform Push
-{
-    DenoiseFilterParams params;
-};
 
 // How many standard deviations two pixels of the same light may differ by: more where few samples tell the deviation.
 float noiseOf(float samples)

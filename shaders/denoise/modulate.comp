@@ -4,16 +4,14 @@
 // like it: it is dimmed to the brightest of them, the less the more samples it has.
 #extension GL_GOOGLE_include_directive : require
 #include "denoise/denoise.h"
+
+GPU_ENTRY(DenoiseModulateParams, GPU_NO_CONSTANTS);
+layout(local_size_x = kPathGroup) in;
+
 #include "denoise/guide.glsl"
 #include "lib/color.glsl"
 #include "lib/dispatch.glsl"
 #include "path/pixel.glsl"
-
-layout(local_size_x = kPathGroup) in;
-layout(push_constant, scalar) uniform Push
-{
-    DenoiseModulateParams params;
-};
 
 // The largest luminance of the eight pixels around one.
 float brightestAround(ivec2 pixel)

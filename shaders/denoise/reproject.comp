@@ -3,18 +3,13 @@
 // Adds the light of an earlier picture where it shows the same place.
 #extension GL_GOOGLE_include_directive : require
 #include "denoise/denoise.h"
+
+GPU_ENTRY(DenoiseReprojectParams, DENOISE_REPROJECT_CONSTANTS);
+layout(local_size_x = kPathGroup) in;
+
 #include "denoise/guide.glsl"
 #include "lib/camera.glsl"
 #include "lib/dispatch.glsl"
-
-layout(constant_id = 0) const bool kOrthographic = false;
-layout(constant_id = 1) const bool kOldOrthographic = false;
-
-layout(local_size_x = kPathGroup) in;
-layout(push_constant, scalar) uniform Push
-{
-    DenoiseReprojectParams params;
-};
 
 void main()
 {

@@ -5,16 +5,12 @@
 // workgroup.
 #extension GL_GOOGLE_include_directive : require
 #include "edit/edit.h"
+
+GPU_ENTRY(EditAllocateParams, EDIT_ALLOCATE_CONSTANTS);
+layout(local_size_x_id = 1) in;
+
 #include "edit/cells.glsl"
 #include "lib/morton.glsl"
-
-layout(constant_id = 0) const bool kAttributes = false; // voxels take room
-
-layout(local_size_x_id = 1) in;
-layout(push_constant, scalar) uniform Push
-{
-    EditAllocateParams params;
-};
 
 #define SCAN_GROUP gl_WorkGroupSize.x
 #include "lib/scan.glsl"

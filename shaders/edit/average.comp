@@ -3,15 +3,11 @@
 // Computes the attributes of the changed leaves.
 #extension GL_GOOGLE_include_directive : require
 #include "edit/edit.h"
-#include "lib/dispatch.glsl"
 
-layout(constant_id = 0) const uint kLanes = 1u;
-
+GPU_ENTRY(EditAverageParams, EDIT_AVERAGE_CONSTANTS);
 layout(local_size_x = kNodesGroup) in;
-layout(push_constant, scalar) uniform Push
-{
-    EditAverageParams params;
-};
+
+#include "lib/dispatch.glsl"
 
 #define AVERAGE_CHILDREN Attribute_ConstPtr
 #include "edit/average.glsl"

@@ -4,15 +4,11 @@
 // takes level after level, from the lowest of them up to the root.
 #extension GL_GOOGLE_include_directive : require
 #include "edit/edit.h"
-#include "edit/cells.glsl"
 
-layout(constant_id = 0) const uint kLanes = 1u;
-
+GPU_ENTRY(EditAverageTopParams, EDIT_AVERAGE_TOP_CONSTANTS);
 layout(local_size_x_id = 1) in;
-layout(push_constant, scalar) uniform Push
-{
-    EditAverageTopParams params;
-};
+
+#include "edit/cells.glsl"
 
 #define AVERAGE_CHILDREN Attribute_Ptr
 #include "edit/average.glsl"

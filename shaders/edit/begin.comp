@@ -4,14 +4,8 @@
 #extension GL_GOOGLE_include_directive : require
 #include "edit/edit.h"
 
-layout(constant_id = 0) const bool kAttributes = false;
-layout(constant_id = 1) const bool kRanks = false;
-
+GPU_ENTRY(EditBeginParams, EDIT_BEGIN_CONSTANTS);
 layout(local_size_x = kArgsGroup) in;
-layout(push_constant, scalar) uniform Push
-{
-    EditBeginParams params;
-};
 
 void main()
 {

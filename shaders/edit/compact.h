@@ -23,9 +23,8 @@ struct EditMarkParams // push constants of edit/mark: one thread a node of the r
     uint voxel_count;
     uint level; // level of the nodes that mark their children, or voxels
 };
-GPU_KERNEL_BEGIN(edit, mark, Mark, EditMarkParams)
-    GPU_CONSTANT(bool, leaves, false)
-GPU_KERNEL_END
+#define EDIT_MARK_CONSTANTS(CONSTANT) CONSTANT(0, bool, leaves, kLeaves, false)
+GPU_KERNEL(edit, mark, Mark, EditMarkParams, EDIT_MARK_CONSTANTS)
 
 struct EditSumParams // push constants of edit/live_sums and edit/renumber: a workgroup for each kScanBlock elements
 {
@@ -34,12 +33,9 @@ struct EditSumParams // push constants of edit/live_sums and edit/renumber: a wo
     GPU_PTR(uint) numbers;     // [element_count] what is kept before an element
     uint element_count;
 };
-GPU_KERNEL_BEGIN(edit, live_sums, LiveSums, EditSumParams)
-    GPU_CONSTANT(bool, voxels, false)
-GPU_KERNEL_END
-GPU_KERNEL_BEGIN(edit, renumber, Renumber, EditSumParams)
-    GPU_CONSTANT(bool, voxels, false)
-GPU_KERNEL_END
+#define EDIT_SUM_CONSTANTS(CONSTANT) CONSTANT(0, bool, voxels, kVoxels, false)
+GPU_KERNEL(edit, live_sums, LiveSums, EditSumParams, EDIT_SUM_CONSTANTS)
+GPU_KERNEL(edit, renumber, Renumber, EditSumParams, EDIT_SUM_CONSTANTS)
 
 struct EditMoveParams // push constants of edit/move_nodes and edit/move_voxels: one thread a node, or voxel, of the
                       // region
@@ -62,13 +58,12 @@ struct EditMoveParams // push constants of edit/move_nodes and edit/move_voxels:
     uint level_count;
     uint attribute_offset;
 };
-GPU_KERNEL_BEGIN(edit, move_nodes, MoveNodes, EditMoveParams)
-    GPU_CONSTANT(bool, attributes, false)
-    GPU_CONSTANT(bool, ranks, false)
-GPU_KERNEL_END
-GPU_KERNEL_BEGIN(edit, move_voxels, MoveVoxels, EditMoveParams)
-    GPU_CONSTANT(bool, emits, false)
-GPU_KERNEL_END
+#define EDIT_MOVE_NODES_CONSTANTS(CONSTANT)                                                                            \
+    CONSTANT(0, bool, attributes, kAttributes, false)                                                                  \
+    CONSTANT(1, bool, ranks, kRanks, false)
+GPU_KERNEL(edit, move_nodes, MoveNodes, EditMoveParams, EDIT_MOVE_NODES_CONSTANTS)
+#define EDIT_MOVE_VOXELS_CONSTANTS(CONSTANT) CONSTANT(0, bool, emits, kEmits, false)
+GPU_KERNEL(edit, move_voxels, MoveVoxels, EditMoveParams, EDIT_MOVE_VOXELS_CONSTANTS)
 
 struct EditMoveEmissionParams // push constants of edit/move_emission: one thread a voxel of the old region
 {
@@ -80,7 +75,7 @@ struct EditMoveEmissionParams // push constants of edit/move_emission: one threa
     uint voxel_count;
     uint new_first_voxel;
 };
-GPU_KERNEL(edit, move_emission, MoveEmission, EditMoveEmissionParams)
+GPU_KERNEL(edit, move_emission, MoveEmission, EditMoveEmissionParams, GPU_NO_CONSTANTS)
 
 struct EditMoveStatesParams // push constants of edit/move_states: one thread a slot
 {
@@ -98,7 +93,7 @@ struct EditMoveStatesParams // push constants of edit/move_states: one thread a 
     uint new_first_node;
     uint new_first_voxel;
 };
-GPU_KERNEL(edit, move_states, MoveStates, EditMoveStatesParams)
+GPU_KERNEL(edit, move_states, MoveStates, EditMoveStatesParams, GPU_NO_CONSTANTS)
 
 GPU_NAMESPACE_END
 

@@ -111,10 +111,10 @@ struct EditBeginParams // push constants of edit/begin: makes slot 0 the static 
     uint voxel_top;
     uint voxel_count;
 };
-GPU_KERNEL_BEGIN(edit, begin, Begin, EditBeginParams)
-    GPU_CONSTANT(bool, attributes, false)
-    GPU_CONSTANT(bool, ranks, false)
-GPU_KERNEL_END
+#define EDIT_BEGIN_CONSTANTS(CONSTANT)                                                                                 \
+    CONSTANT(0, bool, attributes, kAttributes, false)                                                                  \
+    CONSTANT(1, bool, ranks, kRanks, false)
+GPU_KERNEL(edit, begin, Begin, EditBeginParams, EDIT_BEGIN_CONSTANTS)
 
 struct EditFindParams // push constants of edit/find: one thread a cell
 {
@@ -128,10 +128,11 @@ struct EditFindParams // push constants of edit/find: one thread a cell
     Brush brush;
     EditBox box;
 };
-GPU_KERNEL_BEGIN(edit, find, Find, EditFindParams)
-    GPU_CONSTANT(uint, entries_per_word, 0u)
-    GPU_CONSTANT(bool, attributes, false)
-GPU_KERNEL_END
+#define EDIT_FIND_CONSTANTS(CONSTANT)                                                                                  \
+    CONSTANT(0, uint, entries_per_word, kEntriesPerWord,                                                               \
+             0u) /* of the lists of a DAG; 0: the static tree is an octree */                                          \
+    CONSTANT(1, bool, attributes, kAttributes, false)
+GPU_KERNEL(edit, find, Find, EditFindParams, EDIT_FIND_CONSTANTS)
 
 struct EditAllocateParams // push constants of edit/allocate: one workgroup
 {
@@ -146,10 +147,10 @@ struct EditAllocateParams // push constants of edit/allocate: one workgroup
     uint voxel_end;
     EditBox box;
 };
-GPU_KERNEL_BEGIN(edit, allocate, Allocate, EditAllocateParams)
-    GPU_CONSTANT(bool, attributes, false)
-    GPU_CONSTANT(uint, local_size_x, 1u)
-GPU_KERNEL_END
+#define EDIT_ALLOCATE_CONSTANTS(CONSTANT)                                                                              \
+    CONSTANT(0, bool, attributes, kAttributes, false) /* voxels take room */                                           \
+    CONSTANT(1, uint, local_size_x, kLocalSizeX, 1u)
+GPU_KERNEL(edit, allocate, Allocate, EditAllocateParams, EDIT_ALLOCATE_CONSTANTS)
 
 struct EditNodesParams // push constants of edit/nodes: a workgroup for each cell that is no leaf, one at least
 {
@@ -169,11 +170,12 @@ struct EditNodesParams // push constants of edit/nodes: a workgroup for each cel
     uint emission_offset; // from a voxel to the index of its word's first value, modulo 2^32
     EditBox box;
 };
-GPU_KERNEL_BEGIN(edit, nodes, Nodes, EditNodesParams)
-    GPU_CONSTANT(uint, entries_per_word, 0u)
-    GPU_CONSTANT(bool, attributes, false)
-    GPU_CONSTANT(bool, emits, false)
-GPU_KERNEL_END
+#define EDIT_NODES_CONSTANTS(CONSTANT)                                                                                 \
+    CONSTANT(0, uint, entries_per_word, kEntriesPerWord,                                                               \
+             0u) /* of the lists of a DAG; 0: the static tree is an octree */                                          \
+    CONSTANT(1, bool, attributes, kAttributes, false)                                                                  \
+    CONSTANT(2, bool, emits, kEmits, false)
+GPU_KERNEL(edit, nodes, Nodes, EditNodesParams, EDIT_NODES_CONSTANTS)
 
 struct EditVoxelsParams // push constants of edit/voxels and edit/emission: a workgroup for each cell that is a leaf
 {
@@ -188,10 +190,9 @@ struct EditVoxelsParams // push constants of edit/voxels and edit/emission: a wo
     Brush brush;
     EditBox box;
 };
-GPU_KERNEL(edit, emission, Emission, EditVoxelsParams)
-GPU_KERNEL_BEGIN(edit, voxels, Voxels, EditVoxelsParams)
-    GPU_CONSTANT(bool, emits, false)
-GPU_KERNEL_END
+GPU_KERNEL(edit, emission, Emission, EditVoxelsParams, GPU_NO_CONSTANTS)
+#define EDIT_VOXELS_CONSTANTS(CONSTANT) CONSTANT(0, bool, emits, kEmits, false)
+GPU_KERNEL(edit, voxels, Voxels, EditVoxelsParams, EDIT_VOXELS_CONSTANTS)
 
 struct EditAverageParams // push constants of edit/average: kLanes threads a cell that is a leaf
 {
@@ -205,9 +206,8 @@ struct EditAverageParams // push constants of edit/average: kLanes threads a cel
     uint to;
     uint attribute_offset; // from a node to averages
 };
-GPU_KERNEL_BEGIN(edit, average, Average, EditAverageParams)
-    GPU_CONSTANT(uint, lanes, 1u)
-GPU_KERNEL_END
+#define EDIT_AVERAGE_CONSTANTS(CONSTANT) CONSTANT(0, uint, lanes, kLanes, 1u)
+GPU_KERNEL(edit, average, Average, EditAverageParams, EDIT_AVERAGE_CONSTANTS)
 
 struct EditAverageTopParams // push constants of edit/average_top: one workgroup
 {
@@ -221,10 +221,10 @@ struct EditAverageTopParams // push constants of edit/average_top: one workgroup
     uint to;
     uint attribute_offset; // from a node to averages
 };
-GPU_KERNEL_BEGIN(edit, average_top, AverageTop, EditAverageTopParams)
-    GPU_CONSTANT(uint, lanes, 1u)
-    GPU_CONSTANT(uint, local_size_x, 1u)
-GPU_KERNEL_END
+#define EDIT_AVERAGE_TOP_CONSTANTS(CONSTANT)                                                                           \
+    CONSTANT(0, uint, lanes, kLanes, 1u)                                                                               \
+    CONSTANT(1, uint, local_size_x, kLocalSizeX, 1u)
+GPU_KERNEL(edit, average_top, AverageTop, EditAverageTopParams, EDIT_AVERAGE_TOP_CONSTANTS)
 
 GPU_NAMESPACE_END
 

@@ -2,6 +2,10 @@
 // SPDX-License-Identifier: MIT
 // Copies the emission of the emissive voxels of changed leaves.
 #extension GL_GOOGLE_include_directive : require
+#include "edit/edit.h"
+
+GPU_ENTRY(EditVoxelsParams, GPU_NO_CONSTANTS);
+
 #include "edit/voxels.glsl"
 #include "lib/emission.glsl"
 

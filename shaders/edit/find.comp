@@ -3,20 +3,14 @@
 // Finds the base tree's node of each cell, and what the brush does to the leaves among them.
 #extension GL_GOOGLE_include_directive : require
 #include "edit/edit.h"
+
+GPU_ENTRY(EditFindParams, EDIT_FIND_CONSTANTS);
+layout(local_size_x = kNodesGroup) in;
+
 #include "edit/cells.glsl"
 #include "lib/dispatch.glsl"
 #include "lib/morton.glsl"
 #include "lib/node.glsl"
-
-layout(constant_id = 0) const uint kEntriesPerWord = 0u; // of the lists of a DAG; 0: the static tree is an octree
-layout(constant_id = 1) const bool kAttributes = false;
-
-layout(local_size_x = kNodesGroup) in;
-layout(push_constant, scalar) uniform Push
-{
-    EditFindParams params;
-};
-
 #include "lib/ranks.glsl"
 
 const bool kRanks = kEntriesPerWord != 0u && kAttributes;

@@ -6,13 +6,8 @@
 #define SCAN_GROUP kScanGroup
 #include "edit/compact.h"
 
-layout(constant_id = 0) const bool kVoxels = false;
-
+GPU_ENTRY(EditSumParams, EDIT_SUM_CONSTANTS);
 layout(local_size_x = kScanGroup) in;
-layout(push_constant, scalar) uniform Push
-{
-    EditSumParams params;
-};
 
 // What is kept of a thread's elements from `first` on. No load waits for another, so all are under way.
 void keptOfThread(uint first, out uint kept[kScanItems], out uint sum)

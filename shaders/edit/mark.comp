@@ -3,15 +3,11 @@
 // Marks the children, or the voxels of leaves, of the kept nodes of a level, as far as they stand in the region.
 #extension GL_GOOGLE_include_directive : require
 #include "edit/compact.h"
-#include "lib/dispatch.glsl"
 
-layout(constant_id = 0) const bool kLeaves = false;
-
+GPU_ENTRY(EditMarkParams, EDIT_MARK_CONSTANTS);
 layout(local_size_x = kNodesGroup) in;
-layout(push_constant, scalar) uniform Push
-{
-    EditMarkParams params;
-};
+
+#include "lib/dispatch.glsl"
 
 // Several threads may mark the same node; they write the same, because a node has one level.
 void markNodes(uint base, uint count)

@@ -3,14 +3,12 @@
 // Copies the emission of the kept voxels to the new region.
 #extension GL_GOOGLE_include_directive : require
 #include "edit/compact.h"
+
+GPU_ENTRY(EditMoveEmissionParams, GPU_NO_CONSTANTS);
+layout(local_size_x = kNodesGroup) in;
+
 #include "lib/dispatch.glsl"
 #include "lib/emission.glsl"
-
-layout(local_size_x = kNodesGroup) in;
-layout(push_constant, scalar) uniform Push
-{
-    EditMoveEmissionParams params;
-};
 
 void main()
 {

@@ -3,16 +3,11 @@
 // Copies the kept nodes to the new region.
 #extension GL_GOOGLE_include_directive : require
 #include "edit/compact.h"
-#include "lib/dispatch.glsl"
 
-layout(constant_id = 0) const bool kAttributes = false;
-layout(constant_id = 1) const bool kRanks = false;
-
+GPU_ENTRY(EditMoveParams, EDIT_MOVE_NODES_CONSTANTS);
 layout(local_size_x = kNodesGroup) in;
-layout(push_constant, scalar) uniform Push
-{
-    EditMoveParams params;
-};
+
+#include "lib/dispatch.glsl"
 
 // The new position of a run of children, or of a leaf's voxels; all of the run is kept.
 uint movedNode(uint base)

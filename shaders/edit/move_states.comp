@@ -3,13 +3,11 @@
 // Sets the states of the slots in the new region, with the ends of their copies there.
 #extension GL_GOOGLE_include_directive : require
 #include "edit/compact.h"
-#include "lib/dispatch.glsl"
 
+GPU_ENTRY(EditMoveStatesParams, GPU_NO_CONSTANTS);
 layout(local_size_x = kNodesGroup) in;
-layout(push_constant, scalar) uniform Push
-{
-    EditMoveStatesParams params;
-};
+
+#include "lib/dispatch.glsl"
 
 // Number of kept nodes before node i of the old region; i may be one past its last.
 uint nodesBefore(uint i)

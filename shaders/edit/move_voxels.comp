@@ -3,15 +3,11 @@
 // Copies the attributes of the kept voxels to the new region.
 #extension GL_GOOGLE_include_directive : require
 #include "edit/compact.h"
-#include "lib/dispatch.glsl"
 
-layout(constant_id = 0) const bool kEmits = false;
-
+GPU_ENTRY(EditMoveParams, EDIT_MOVE_VOXELS_CONSTANTS);
 layout(local_size_x = kNodesGroup) in;
-layout(push_constant, scalar) uniform Push
-{
-    EditMoveParams params;
-};
+
+#include "lib/dispatch.glsl"
 
 void main()
 {

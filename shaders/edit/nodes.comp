@@ -4,21 +4,14 @@
 // words of the emission table that the dab takes.
 #extension GL_GOOGLE_include_directive : require
 #include "edit/edit.h"
+
+GPU_ENTRY(EditNodesParams, EDIT_NODES_CONSTANTS);
+layout(local_size_x = kEditGroup) in;
+
 #include "edit/cells.glsl"
 #include "lib/dispatch.glsl"
 #include "lib/morton.glsl"
 #include "lib/node.glsl"
-
-layout(constant_id = 0) const uint kEntriesPerWord = 0u; // of the lists of a DAG; 0: the static tree is an octree
-layout(constant_id = 1) const bool kAttributes = false;
-layout(constant_id = 2) const bool kEmits = false;
-
-layout(local_size_x = kEditGroup) in;
-layout(push_constant, scalar) uniform Push
-{
-    EditNodesParams params;
-};
-
 #include "lib/ranks.glsl"
 
 const bool kRanks = kEntriesPerWord != 0u && kAttributes;

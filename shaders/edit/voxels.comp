@@ -2,11 +2,13 @@
 // SPDX-License-Identifier: MIT
 // Writes the attributes of the voxels of changed leaves: as before the dab, or as the brush asks.
 #extension GL_GOOGLE_include_directive : require
+#include "edit/edit.h"
+
+GPU_ENTRY(EditVoxelsParams, EDIT_VOXELS_CONSTANTS);
+
 #include "edit/voxels.glsl"
 #include "edit/cells.glsl"
 #include "lib/normal.glsl"
-
-layout(constant_id = 0) const bool kEmits = false;
 
 void main()
 {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The voxels of changed leaves, one a thread.
+// The voxels of changed leaves, one a thread. Needs GPU_ENTRY with EditVoxelsParams.
 #ifndef ZVO_SHADERS_EDIT_VOXELS_GLSL
 #define ZVO_SHADERS_EDIT_VOXELS_GLSL
 
@@ -10,10 +10,6 @@
 #include "lib/node.glsl"
 
 layout(local_size_x = kEditGroup) in;
-layout(push_constant, scalar) uniform Push
-{
-    EditVoxelsParams params;
-};
 
 // A voxel of a changed leaf.
 struct EditVoxel

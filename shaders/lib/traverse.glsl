@@ -19,34 +19,26 @@
 // into the cell, or advances past it (past its 2x2x2 octant, or the half node, if that is empty) to the lowest node
 // around both cells.
 //
-// Rays start in the node at g_halves (lib/half_node.glsl). A kernel may define before:
+// Rays start in the node at g_halves (lib/half_node.glsl). Needs what TRAVERSE_CONSTANTS (trace/trace.h) declares:
+//   kNodeLevels        of the octree
+//   kDetail            whether rays stop at small nodes
+//   kIterationsMax
+//   kEntriesPerWord    of lists; 0: there are none
+// A kernel may define before:
 //   TRAVERSE_PATHS             a constant, true where rays may begin below the root; not with kDetail or fewer than
 //                              four levels (trace/traverse_paths.glsl, which declares the next two)
 //   TRAVERSE_PATHS_RELATIVE    a constant, false where the root's first child is node 1
 //   uvec2 loadPath(uint cell)  the nodes that contain a cell, as trace/node_paths.h describes it
 //   TRAVERSE_ENTRIES           hits in a DAG come with the index of the entry that named their leaf
-//   TRAVERSE_VARIABLES         then it declares what the four constants stand for, by their names; kNodeLevels and
-//                              kEntriesPerWord may be variables, set before each ray
+//   TRAVERSE_VARIABLES         kNodeLevels and kEntriesPerWord are variables, set before each ray
 //   TRAVERSE_LEVELS            a constant, at least kNodeLevels, for registers; must be defined if that is a variable
 #ifndef ZVO_SHADERS_LIB_TRAVERSE_GLSL
 #define ZVO_SHADERS_LIB_TRAVERSE_GLSL
 
-#define TRAVERSE_CONSTANT_ID 0
 #include "lib/half_node.glsl"
 #include "lib/ray.glsl"
 #include "shared/svdag.h"
 #include "shared/trace.h"
-
-#ifndef TRAVERSE_VARIABLES
-#ifndef TRAVERSE_CONSTANT_ID
-#endif
-
-layout(constant_id = 0) const uint kNodeLevels = 5u; // of the octree
-layout(constant_id = 1) const bool kDetail = false; // stop at small nodes
-layout(constant_id = 2) const uint kIterationsMax = kTraceIterationsMax;
-layout(constant_id = 3) const uint kEntriesPerWord = 0u; // of lists; 0: there are none
-#endif
-
 
 #ifdef TRAVERSE_VARIABLES
 #define kLeafShift (kMantissaBits - 2u * kNodeLevels) // a variable makes no constant

@@ -3,14 +3,11 @@
 // Writes the alias tables from the lists: each cell finds the other one by which it is filled up.
 #extension GL_GOOGLE_include_directive : require
 #include "light/environment.h"
-#include "lib/dispatch.glsl"
 
+GPU_ENTRY(AliasParams, GPU_NO_CONSTANTS);
 layout(local_size_x = kAliasGroup) in;
-layout(push_constant, scalar) uniform Push
-{
-    AliasParams params;
-};
 
+#include "lib/dispatch.glsl"
 #include "light/alias.glsl"
 
 // The number of items of a list whose stretches begin at most at a place.

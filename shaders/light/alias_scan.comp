@@ -3,14 +3,11 @@
 // Replaces the sums of each block by those of the blocks before it, and writes what a face receives.
 #extension GL_GOOGLE_include_directive : require
 #include "light/environment.h"
-#include "lib/dispatch.glsl"
 
+GPU_ENTRY(AliasParams, GPU_NO_CONSTANTS);
 layout(local_size_x = kAliasGroup) in;
-layout(push_constant, scalar) uniform Push
-{
-    AliasParams params;
-};
 
+#include "lib/dispatch.glsl"
 #include "light/alias.glsl"
 
 void main()

@@ -3,14 +3,11 @@
 // Sums up what the cells of each block lack and give.
 #extension GL_GOOGLE_include_directive : require
 #include "light/environment.h"
-#include "lib/dispatch.glsl"
 
+GPU_ENTRY(AliasParams, GPU_NO_CONSTANTS);
 layout(local_size_x = kAliasGroup) in;
-layout(push_constant, scalar) uniform Push
-{
-    AliasParams params;
-};
 
+#include "lib/dispatch.glsl"
 #include "light/alias.glsl"
 
 void main()

@@ -4,13 +4,11 @@
 // that sums have 32 bits.
 #extension GL_GOOGLE_include_directive : require
 #include "light/environment.h"
-#include "lib/dispatch.glsl"
 
+GPU_ENTRY(AliasParams, GPU_NO_CONSTANTS);
 layout(local_size_x = kAliasGroup) in;
-layout(push_constant, scalar) uniform Push
-{
-    AliasParams params;
-};
+
+#include "lib/dispatch.glsl"
 
 // A weight in steps.
 uint stepsOf(float weight, float heaviest)

@@ -3,17 +3,13 @@
 // Computes the weight of each cell in the table of each normal, and the heaviest ones.
 #extension GL_GOOGLE_include_directive : require
 #include "light/environment.h"
+
+GPU_ENTRY(AliasWeightsParams, LIGHT_ALIAS_WEIGHTS_CONSTANTS);
+layout(local_size_x = kAliasGroup) in;
+
 #include "lib/color.glsl"
 #include "lib/dispatch.glsl"
 #include "light/outside.glsl"
-
-layout(constant_id = 0) const bool kEvenly = false; // by solid angle alone
-
-layout(local_size_x = kAliasGroup) in;
-layout(push_constant, scalar) uniform Push
-{
-    AliasWeightsParams params;
-};
 
 shared uint s_heaviest[kNormals];
 

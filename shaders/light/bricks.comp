@@ -3,22 +3,16 @@
 // Makes the bricks of the light tree of leaves: a thread for each cell.
 #extension GL_GOOGLE_include_directive : require
 #include "light/light_tree.h"
+
+GPU_ENTRY(LightBricksParams, LIGHT_BRICKS_CONSTANTS);
+layout(local_size_x = kLightGroup) in;
+
 #include "lib/color.glsl"
 #include "lib/dispatch.glsl"
 #include "lib/emission.glsl"
 #include "lib/morton.glsl"
 #include "lib/node.glsl"
 #include "light/bounds.glsl"
-
-layout(constant_id = 0) const uint kNodeLevels = 5u;
-layout(constant_id = 1) const uint kEntriesPerWord = 0u; // of the lists of a DAG; 0: the tree is an octree
-
-layout(local_size_x = kLightGroup) in;
-layout(push_constant, scalar) uniform Push
-{
-    LightBricksParams params;
-};
-
 #include "light/item.glsl"
 
 shared uint s_emissive[2];

@@ -3,19 +3,13 @@
 // Lists the children with emissive voxels of each node of a level: a thread for each cell.
 #extension GL_GOOGLE_include_directive : require
 #include "light/light_tree.h"
+
+GPU_ENTRY(LightChildrenParams, LIGHT_CHILDREN_CONSTANTS);
+layout(local_size_x = kLightGroup) in;
+
 #include "lib/dispatch.glsl"
 #include "lib/morton.glsl"
 #include "lib/node.glsl"
-
-layout(constant_id = 0) const uint kNodeLevels = 5u;
-layout(constant_id = 1) const uint kEntriesPerWord = 0u; // of the lists of a DAG; 0: the tree is an octree
-
-layout(local_size_x = kLightGroup) in;
-layout(push_constant, scalar) uniform Push
-{
-    LightChildrenParams params;
-};
-
 #include "lib/ranks.glsl"
 #include "light/item.glsl"
 

@@ -68,7 +68,7 @@ struct EnvironmentGivesParams // push constants of light/environment_gives: a th
     float sun_height;
     float strength;
 };
-GPU_KERNEL(light, environment_gives, EnvironmentGives, EnvironmentGivesParams)
+GPU_KERNEL(light, environment_gives, EnvironmentGives, EnvironmentGivesParams, GPU_NO_CONSTANTS)
 
 struct SkyTexelsParams // push constants of light/sky_texels: a thread a texel
 {
@@ -76,7 +76,7 @@ struct SkyTexelsParams // push constants of light/sky_texels: a thread a texel
     uint width;
     uint height;
 };
-GPU_KERNEL(light, sky_texels, SkyTexels, SkyTexelsParams)
+GPU_KERNEL(light, sky_texels, SkyTexels, SkyTexelsParams, GPU_NO_CONSTANTS)
 
 struct AliasWeightsParams // push constants of light/alias_weights: a thread a cell
 {
@@ -85,9 +85,8 @@ struct AliasWeightsParams // push constants of light/alias_weights: a thread a c
     GPU_PTR(AliasTotals) totals;
     EnvironmentMap map;
 };
-GPU_KERNEL_BEGIN(light, alias_weights, AliasWeights, AliasWeightsParams)
-    GPU_CONSTANT(bool, evenly, false) // by solid angle alone
-GPU_KERNEL_END
+#define LIGHT_ALIAS_WEIGHTS_CONSTANTS(CONSTANT) CONSTANT(0, bool, evenly, kEvenly, false) /* by solid angle alone */
+GPU_KERNEL(light, alias_weights, AliasWeights, AliasWeightsParams, LIGHT_ALIAS_WEIGHTS_CONSTANTS)
 
 /// Push constants of the other kernels for tables: a workgroup a block of cells of a normal, all blocks of +x first.
 struct AliasParams
@@ -101,11 +100,12 @@ struct AliasParams
     uint cell_count;
     uint block_count;
 };
-GPU_KERNEL(light, alias_totals, AliasTotals, AliasParams) // also rounds weights to steps
-GPU_KERNEL(light, alias_sums, AliasSums, AliasParams)
-GPU_KERNEL(light, alias_scan, AliasScan, AliasParams) // a workgroup a normal
-GPU_KERNEL(light, alias_lists, AliasLists, AliasParams)
-GPU_KERNEL(light, alias_fill, AliasFill, AliasParams) // a thread an item, of a normal's cells first the light ones
+GPU_KERNEL(light, alias_totals, AliasTotals, AliasParams, GPU_NO_CONSTANTS) // also rounds weights to steps
+GPU_KERNEL(light, alias_sums, AliasSums, AliasParams, GPU_NO_CONSTANTS)
+GPU_KERNEL(light, alias_scan, AliasScan, AliasParams, GPU_NO_CONSTANTS) // a workgroup a normal
+GPU_KERNEL(light, alias_lists, AliasLists, AliasParams, GPU_NO_CONSTANTS)
+GPU_KERNEL(light, alias_fill, AliasFill, AliasParams,
+           GPU_NO_CONSTANTS) // a thread an item, of a normal's cells first the light ones
 
 GPU_NAMESPACE_END
 

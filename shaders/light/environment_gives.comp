@@ -4,13 +4,11 @@
 // for there.
 #extension GL_GOOGLE_include_directive : require
 #include "light/environment.h"
-#include "lib/color.glsl"
 
+GPU_ENTRY(EnvironmentGivesParams, GPU_NO_CONSTANTS);
 layout(local_size_x = kArgsGroup) in;
-layout(push_constant, scalar) uniform Push
-{
-    EnvironmentGivesParams params;
-};
+
+#include "lib/color.glsl"
 
 void main()
 {

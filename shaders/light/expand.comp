@@ -3,20 +3,13 @@
 // Finds which children of each node of a level have emissive voxels below: a thread for each cell.
 #extension GL_GOOGLE_include_directive : require
 #include "light/light_tree.h"
+
+GPU_ENTRY(LightExpandParams, LIGHT_EXPAND_CONSTANTS);
+layout(local_size_x = kLightGroup) in;
+
 #include "lib/dispatch.glsl"
 #include "lib/emission.glsl"
 #include "lib/node.glsl"
-
-layout(constant_id = 0) const uint kNodeLevels = 5u;
-layout(constant_id = 1) const uint kEntriesPerWord = 0u; // of the lists of a DAG; 0: the tree is an octree
-layout(constant_id = 2) const bool kFlags = true; // nodes' attributes say whether a voxel below emits
-
-layout(local_size_x = kLightGroup) in;
-layout(push_constant, scalar) uniform Push
-{
-    LightExpandParams params;
-};
-
 #include "lib/ranks.glsl"
 #include "light/item.glsl"
 

@@ -74,11 +74,11 @@ struct LightExpandParams // push constants of light/expand: a workgroup for each
     GPU_PTR(LightNode) nodes;
     uint level;
 };
-GPU_KERNEL_BEGIN(light, expand, Expand, LightExpandParams)
-    GPU_CONSTANT(uint, node_levels, 5u)
-    GPU_CONSTANT(uint, entries_per_word, 0u)
-    GPU_CONSTANT(bool, flags, true) // nodes' attributes say whether a voxel below emits
-GPU_KERNEL_END
+#define LIGHT_EXPAND_CONSTANTS(CONSTANT)                                                                               \
+    CONSTANT(0, uint, node_levels, kNodeLevels, 5u)                                                                    \
+    CONSTANT(1, uint, entries_per_word, kEntriesPerWord, 0u) /* of the lists of a DAG; 0: the tree is an octree */     \
+    CONSTANT(2, bool, flags, kFlags, true)                   /* nodes' attributes say whether a voxel below emits */
+GPU_KERNEL(light, expand, Expand, LightExpandParams, LIGHT_EXPAND_CONSTANTS)
 
 struct LightScanParams // push constants of light/scan: one workgroup
 {
@@ -89,7 +89,7 @@ struct LightScanParams // push constants of light/scan: one workgroup
     uint capacity; // of nodes
     uint max_groups_x;
 };
-GPU_KERNEL(light, scan, Scan, LightScanParams)
+GPU_KERNEL(light, scan, Scan, LightScanParams, GPU_NO_CONSTANTS)
 
 struct LightChildrenParams // push constants of light/children: a workgroup for each node of a level above the leaves
 {
@@ -99,10 +99,10 @@ struct LightChildrenParams // push constants of light/children: a workgroup for 
     GPU_CONST_PTR(LightNode) nodes;
     uint level;
 };
-GPU_KERNEL_BEGIN(light, children, Children, LightChildrenParams)
-    GPU_CONSTANT(uint, node_levels, 5u)
-    GPU_CONSTANT(uint, entries_per_word, 0u)
-GPU_KERNEL_END
+#define LIGHT_CHILDREN_CONSTANTS(CONSTANT)                                                                             \
+    CONSTANT(0, uint, node_levels, kNodeLevels, 5u)                                                                    \
+    CONSTANT(1, uint, entries_per_word, kEntriesPerWord, 0u) /* of the lists of a DAG; 0: the tree is an octree */
+GPU_KERNEL(light, children, Children, LightChildrenParams, LIGHT_CHILDREN_CONSTANTS)
 
 struct LightBricksParams // push constants of light/bricks: a workgroup for each leaf
 {
@@ -113,10 +113,10 @@ struct LightBricksParams // push constants of light/bricks: a workgroup for each
     GPU_PTR(LightBrick) bricks;
     uint level;
 };
-GPU_KERNEL_BEGIN(light, bricks, Bricks, LightBricksParams)
-    GPU_CONSTANT(uint, node_levels, 5u)
-    GPU_CONSTANT(uint, entries_per_word, 0u)
-GPU_KERNEL_END
+#define LIGHT_BRICKS_CONSTANTS(CONSTANT)                                                                               \
+    CONSTANT(0, uint, node_levels, kNodeLevels, 5u)                                                                    \
+    CONSTANT(1, uint, entries_per_word, kEntriesPerWord, 0u) /* of the lists of a DAG; 0: the tree is an octree */
+GPU_KERNEL(light, bricks, Bricks, LightBricksParams, LIGHT_BRICKS_CONSTANTS)
 
 struct LightReduceParams // push constants of light/reduce: a workgroup for each node of a level above the leaves
 {
@@ -125,7 +125,7 @@ struct LightReduceParams // push constants of light/reduce: a workgroup for each
     GPU_CONST_PTR(LightLevel) levels;
     uint level;
 };
-GPU_KERNEL(light, reduce, Reduce, LightReduceParams)
+GPU_KERNEL(light, reduce, Reduce, LightReduceParams, GPU_NO_CONSTANTS)
 
 GPU_NAMESPACE_END
 

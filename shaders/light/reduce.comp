@@ -4,14 +4,12 @@
 // are in the order of the children, whatever the device.
 #extension GL_GOOGLE_include_directive : require
 #include "light/light_tree.h"
+
+GPU_ENTRY(LightReduceParams, GPU_NO_CONSTANTS);
+layout(local_size_x = kLightGroup) in;
+
 #include "lib/dispatch.glsl"
 #include "light/bounds.glsl"
-
-layout(local_size_x = kLightGroup) in;
-layout(push_constant, scalar) uniform Push
-{
-    LightReduceParams params;
-};
 
 shared uvec3 s_low[kLightGroup];
 shared uvec3 s_high[kLightGroup];

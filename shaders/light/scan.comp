@@ -3,15 +3,13 @@
 // Numbers the children of a level's nodes, by one workgroup that walks over the nodes, and sizes the next level.
 #extension GL_GOOGLE_include_directive : require
 #include "light/light_tree.h"
+
+GPU_ENTRY(LightScanParams, GPU_NO_CONSTANTS);
+layout(local_size_x = kLightGroup) in;
+
 #define SCAN_GROUP kLightGroup
 #include "lib/dispatch.glsl"
 #include "lib/scan.glsl"
-
-layout(local_size_x = kLightGroup) in;
-layout(push_constant, scalar) uniform Push
-{
-    LightScanParams params;
-};
 
 void main()
 {

@@ -3,15 +3,13 @@
 // Makes a map of the simple sky, without the sun.
 #extension GL_GOOGLE_include_directive : require
 #include "light/environment.h"
+
+GPU_ENTRY(SkyTexelsParams, GPU_NO_CONSTANTS);
+layout(local_size_x = kAliasGroup) in;
+
 #include "lib/dispatch.glsl"
 #include "lib/sky.glsl"
 #include "light/outside.glsl"
-
-layout(local_size_x = kAliasGroup) in;
-layout(push_constant, scalar) uniform Push
-{
-    SkyTexelsParams params;
-};
 
 void main()
 {

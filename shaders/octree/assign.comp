@@ -4,16 +4,14 @@
 // table has room for it, the entry gets the number of the leaf's first voxel.
 #extension GL_GOOGLE_include_directive : require
 #include "octree/octree.h"
+
+GPU_ENTRY(AssignParams, GPU_NO_CONSTANTS);
+layout(local_size_x = kAssignGroup) in;
+
 #define SCAN_GROUP kAssignGroup
 #include "lib/dispatch.glsl"
 #include "lib/scan.glsl"
 #include "octree/nodes.glsl"
-
-layout(local_size_x = kAssignGroup) in;
-layout(push_constant, scalar) uniform Push
-{
-    AssignParams params;
-};
 
 // The children of the nodes of all blocks before this workgroup's.
 uint childrenBefore()

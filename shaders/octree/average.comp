@@ -3,16 +3,12 @@
 // Computes the attribute of each node of a level: the mean of its children's, with equal weights.
 #extension GL_GOOGLE_include_directive : require
 #include "octree/octree.h"
+
+GPU_ENTRY(AverageParams, OCTREE_AVERAGE_CONSTANTS);
+layout(local_size_x = kNodesGroup) in;
+
 #include "lib/bound.glsl"
 #include "lib/dispatch.glsl"
-
-layout(constant_id = 0) const uint kLanes = 1u;
-
-layout(local_size_x = kNodesGroup) in;
-layout(push_constant, scalar) uniform Push
-{
-    AverageParams params;
-};
 
 #define AVERAGE_CHILDREN Attribute_ConstPtr
 #define CHILDREN_BINDING 0

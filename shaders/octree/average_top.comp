@@ -4,13 +4,8 @@
 #extension GL_GOOGLE_include_directive : require
 #include "octree/octree.h"
 
-layout(constant_id = 0) const uint kLanes = 1u;
-
+GPU_ENTRY(AverageTopParams, OCTREE_AVERAGE_TOP_CONSTANTS);
 layout(local_size_x_id = 1) in;
-layout(push_constant, scalar) uniform Push
-{
-    AverageTopParams params;
-};
 
 #define AVERAGE_CHILDREN Attribute_Ptr
 #include "lib/average.glsl"

@@ -5,18 +5,14 @@
 // leaf gets room.
 #extension GL_GOOGLE_include_directive : require
 #include "octree/octree.h"
+
+GPU_ENTRY(CollectParams, OCTREE_COLLECT_CONSTANTS);
+layout(local_size_x = kCollectGroup) in;
+
 #include "lib/arrivals.glsl"
 #include "lib/bound.glsl"
 #include "lib/dispatch.glsl"
 #include "octree/nodes.glsl"
-
-layout(constant_id = 0) const bool kMixed = false; // MixedVoxels stand behind the table
-
-layout(local_size_x = kCollectGroup) in;
-layout(push_constant, scalar) uniform Push
-{
-    CollectParams params;
-};
 
 #define BRICKS_BINDING 0
 #include "lib/brick_loads.glsl"

@@ -3,18 +3,13 @@
 // Numbers the root and its children, in one workgroup, as octree/place and octree/assign do.
 #extension GL_GOOGLE_include_directive : require
 #include "octree/octree.h"
+
+GPU_ENTRY(NumberParams, OCTREE_NUMBER_CONSTANTS);
+layout(local_size_x = kRootGroup) in;
+
 #define SCAN_GROUP kRootGroup
 #include "lib/scan.glsl"
 #include "octree/nodes.glsl"
-
-layout(constant_id = 0) const bool kWideKeys = false; // the octree has more than kNarrowLevelsMax levels
-
-layout(local_size_x = kRootGroup) in;
-layout(push_constant, scalar) uniform Push
-{
-    NumberParams params;
-};
-
 #include "octree/place.glsl"
 
 // The level's nodes, whose first is given. Returns their number.

@@ -38,9 +38,9 @@ struct CollectParams // push constants of octree/collect
     uint brick_capacity;
     uint max_groups_x;
 };
-GPU_KERNEL_BEGIN(octree, collect, Collect, CollectParams)
-    GPU_CONSTANT(bool, mixed, false)
-GPU_KERNEL_END
+#define OCTREE_COLLECT_CONSTANTS(CONSTANT)                                                                             \
+    CONSTANT(0, bool, mixed, kMixed, false) /* MixedVoxels stand behind the table */
+GPU_KERNEL(octree, collect, Collect, CollectParams, OCTREE_COLLECT_CONSTANTS)
 
 struct ParentsParams // push constants of octree/parents
 {
@@ -53,9 +53,9 @@ struct ParentsParams // push constants of octree/parents
     uint height; // 0: leaves
     uint max_groups_x;
 };
-GPU_KERNEL_BEGIN(octree, parents, Parents, ParentsParams)
-    GPU_CONSTANT(bool, wide_keys, false)
-GPU_KERNEL_END
+#define OCTREE_PARENTS_CONSTANTS(CONSTANT)                                                                             \
+    CONSTANT(0, bool, wide_keys, kWideKeys, false) /* the octree has more than kNarrowLevelsMax levels */
+GPU_KERNEL(octree, parents, Parents, ParentsParams, OCTREE_PARENTS_CONSTANTS)
 
 struct NumberParams // push constants of octree/number: one workgroup, a thread a child of the root
 {
@@ -65,9 +65,9 @@ struct NumberParams // push constants of octree/number: one workgroup, a thread 
     GPU_PTR(Node) nodes;
     uint level_count;
 };
-GPU_KERNEL_BEGIN(octree, number, Number, NumberParams)
-    GPU_CONSTANT(bool, wide_keys, false)
-GPU_KERNEL_END
+#define OCTREE_NUMBER_CONSTANTS(CONSTANT)                                                                              \
+    CONSTANT(0, bool, wide_keys, kWideKeys, false) /* the octree has more than kNarrowLevelsMax levels */
+GPU_KERNEL(octree, number, Number, NumberParams, OCTREE_NUMBER_CONSTANTS)
 
 struct PlaceParams // push constants of octree/place
 {
@@ -79,9 +79,9 @@ struct PlaceParams // push constants of octree/place
     uint first_node; // of the level
     uint node_count; // of the level
 };
-GPU_KERNEL_BEGIN(octree, place, Place, PlaceParams)
-    GPU_CONSTANT(bool, wide_keys, false)
-GPU_KERNEL_END
+#define OCTREE_PLACE_CONSTANTS(CONSTANT)                                                                               \
+    CONSTANT(0, bool, wide_keys, kWideKeys, false) /* the octree has more than kNarrowLevelsMax levels */
+GPU_KERNEL(octree, place, Place, PlaceParams, OCTREE_PLACE_CONSTANTS)
 
 struct ScanParams // push constants of octree/scan: an exclusive scan in place by one workgroup
 {
@@ -89,7 +89,7 @@ struct ScanParams // push constants of octree/scan: an exclusive scan in place b
     GPU_PTR(uint) total;  // [1] sum of all values
     uint count;
 };
-GPU_KERNEL(octree, scan, Scan, ScanParams)
+GPU_KERNEL(octree, scan, Scan, ScanParams, GPU_NO_CONSTANTS)
 
 struct AssignParams // push constants of octree/assign
 {
@@ -102,7 +102,7 @@ struct AssignParams // push constants of octree/assign
     uint first_child; // node index of the next level's first node; 0 in a leaf: voxels
     uint tell_bricks; // 1: write the first child to the nodes' entries in the brick table
 };
-GPU_KERNEL(octree, assign, Assign, AssignParams)
+GPU_KERNEL(octree, assign, Assign, AssignParams, GPU_NO_CONSTANTS)
 
 struct AverageParams // push constants of octree/average
 {
@@ -113,9 +113,8 @@ struct AverageParams // push constants of octree/average
     uint first_node;
     uint node_count;
 };
-GPU_KERNEL_BEGIN(octree, average, Average, AverageParams)
-    GPU_CONSTANT(uint, lanes, 1u)
-GPU_KERNEL_END
+#define OCTREE_AVERAGE_CONSTANTS(CONSTANT) CONSTANT(0, uint, lanes, kLanes, 1u)
+GPU_KERNEL(octree, average, Average, AverageParams, OCTREE_AVERAGE_CONSTANTS)
 
 struct AverageTopParams // push constants of octree/average_top: one workgroup
 {
@@ -126,10 +125,10 @@ struct AverageTopParams // push constants of octree/average_top: one workgroup
     LevelRange levels[kRootLevels];           // the root, its children
     uint level_count;                         // 1 where the root's children are voxels
 };
-GPU_KERNEL_BEGIN(octree, average_top, AverageTop, AverageTopParams)
-    GPU_CONSTANT(uint, lanes, 1u)
-    GPU_CONSTANT(uint, local_size_x, 1u)
-GPU_KERNEL_END
+#define OCTREE_AVERAGE_TOP_CONSTANTS(CONSTANT)                                                                         \
+    CONSTANT(0, uint, lanes, kLanes, 1u)                                                                               \
+    CONSTANT(1, uint, local_size_x, kLocalSizeX, 1u)
+GPU_KERNEL(octree, average_top, AverageTop, AverageTopParams, OCTREE_AVERAGE_TOP_CONSTANTS)
 
 GPU_NAMESPACE_END
 

@@ -4,18 +4,14 @@
 // In the end, the level of the parents has its range and its workgroups.
 #extension GL_GOOGLE_include_directive : require
 #include "octree/octree.h"
+
+GPU_ENTRY(ParentsParams, OCTREE_PARENTS_CONSTANTS);
+layout(local_size_x = kNodesGroup) in;
+
 #include "lib/arrivals.glsl"
 #include "lib/bound.glsl"
 #include "lib/dispatch.glsl"
 #include "octree/nodes.glsl"
-
-layout(constant_id = 0) const bool kWideKeys = false; // the octree has more than kNarrowLevelsMax levels
-
-layout(local_size_x = kNodesGroup) in;
-layout(push_constant, scalar) uniform Push
-{
-    ParentsParams params;
-};
 
 #define BRICKS_BINDING 0
 #include "lib/brick_keys.glsl"

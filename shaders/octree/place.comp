@@ -3,16 +3,11 @@
 // Gives every node of a level below the root its number, and counts the children of each block of kScanBlock nodes.
 #extension GL_GOOGLE_include_directive : require
 #include "octree/octree.h"
-#include "lib/dispatch.glsl"
 
-layout(constant_id = 0) const bool kWideKeys = false; // the octree has more than kNarrowLevelsMax levels
-
+GPU_ENTRY(PlaceParams, OCTREE_PLACE_CONSTANTS);
 layout(local_size_x = kNodesGroup) in;
-layout(push_constant, scalar) uniform Push
-{
-    PlaceParams params;
-};
 
+#include "lib/dispatch.glsl"
 #include "octree/place.glsl"
 
 void main()

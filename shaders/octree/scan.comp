@@ -3,14 +3,12 @@
 // Exclusive prefix sum in place, by one workgroup that walks over the values.
 #extension GL_GOOGLE_include_directive : require
 #include "octree/octree.h"
+
+GPU_ENTRY(ScanParams, GPU_NO_CONSTANTS);
+layout(local_size_x = kScanGroup) in;
+
 #define SCAN_GROUP kScanGroup
 #include "lib/scan.glsl"
-
-layout(local_size_x = kScanGroup) in;
-layout(push_constant, scalar) uniform Push
-{
-    ScanParams params;
-};
 
 void main()
 {

@@ -3,19 +3,14 @@
 // Starts a path for each pixel of a batch, with a ray from a random point of the lens through one of the pixel.
 #extension GL_GOOGLE_include_directive : require
 #include "path/path.h"
+
+GPU_ENTRY(PathBeginParams, PATH_BEGIN_CONSTANTS);
+layout(local_size_x = kPathGroup) in;
+
 #include "lib/dispatch.glsl"
 #include "lib/ray.glsl"
 #include "path/pixel.glsl"
 #include "path/state.glsl"
-
-layout(constant_id = 0) const bool kOrthographic = false;
-
-layout(local_size_x = kPathGroup) in;
-layout(push_constant, scalar) uniform Push
-{
-    PathBeginParams params;
-};
-
 #include "path/camera_ray.glsl"
 
 void main()

@@ -3,18 +3,13 @@
 // Adds the light of the shadow rays that reach their lights.
 #extension GL_GOOGLE_include_directive : require
 #include "path/path.h"
+
+GPU_ENTRY(PathConnectParams, PATH_CONNECT_CONSTANTS);
+layout(local_size_x = kPathGroup) in;
+
 #include "lib/dispatch.glsl"
 #include "lib/hit.glsl"
 #include "path/state.glsl"
-
-layout(constant_id = 0) const bool kNotes = false;
-
-layout(local_size_x = kPathGroup) in;
-layout(push_constant, scalar) uniform Push
-{
-    PathConnectParams params;
-};
-
 #include "path/lists.glsl"
 
 void main()

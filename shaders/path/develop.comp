@@ -3,17 +3,13 @@
 // Makes the picture of the mean of all samples.
 #extension GL_GOOGLE_include_directive : require
 #include "path/path.h"
+
+GPU_ENTRY(PathDevelopParams, PATH_DEVELOP_CONSTANTS);
+layout(local_size_x = kPathGroup) in;
+
 #include "lib/dispatch.glsl"
 #include "path/pixel.glsl"
 #include "trace/texel.glsl"
-
-layout(constant_id = 0) const uint kTexels = kTexelRgba8;
-
-layout(local_size_x = kPathGroup) in;
-layout(push_constant, scalar) uniform Push
-{
-    PathDevelopParams params;
-};
 
 void main()
 {

@@ -3,21 +3,14 @@
 // Adds the light of emissive voxels that rays have hit.
 #extension GL_GOOGLE_include_directive : require
 #include "path/path.h"
+
+GPU_ENTRY(PathLightParams, PATH_EMITTER_CONSTANTS);
+layout(local_size_x = kPathGroup) in;
+
 #include "lib/dispatch.glsl"
 #include "lib/hit.glsl"
 #include "lib/ray.glsl"
 #include "path/state.glsl"
-
-layout(constant_id = 0) const uint kSampling = kSampleBoth; // how light is found
-layout(constant_id = 1) const uint kNodeLevels = 5u;
-layout(constant_id = 2) const bool kByPower = false; // lights are chosen whatever their place
-
-layout(local_size_x = kPathGroup) in;
-layout(push_constant, scalar) uniform Push
-{
-    PathLightParams params;
-};
-
 #include "path/lists.glsl"
 #include "path/voxel_light.glsl"
 

@@ -4,14 +4,12 @@
 // pixels do not count, and neither do those without light.
 #extension GL_GOOGLE_include_directive : require
 #include "path/path.h"
+
+GPU_ENTRY(PathExposeParams, GPU_NO_CONSTANTS);
+layout(local_size_x = kPathGroup) in;
+
 #define SCAN_GROUP kPathGroup
 #include "lib/scan.glsl"
-
-layout(local_size_x = kPathGroup) in;
-layout(push_constant, scalar) uniform Push
-{
-    PathExposeParams params;
-};
 
 const uint kBins = kMeterBins / kPathGroup; // of a thread
 const float kDarkPart = 0.1;                // of the pixels

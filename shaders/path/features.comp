@@ -3,20 +3,14 @@
 // Adds what the camera's rays see to the features of each pixel of a batch.
 #extension GL_GOOGLE_include_directive : require
 #include "path/path.h"
+
+GPU_ENTRY(PathFeaturesParams, PATH_FEATURES_CONSTANTS);
+layout(local_size_x = kPathGroup) in;
+
 #include "lib/color.glsl"
 #include "lib/dispatch.glsl"
 #include "lib/hit.glsl"
 #include "lib/ray.glsl"
-
-layout(constant_id = 0) const uint kNodeLevels = 5u;
-layout(constant_id = 1) const uint kFormat = kFormat8; // of attributes
-
-layout(local_size_x = kPathGroup) in;
-layout(push_constant, scalar) uniform Push
-{
-    PathFeaturesParams params;
-};
-
 #include "path/feature_sum.glsl"
 
 void main()

@@ -3,16 +3,12 @@
 // Adds a sample of each pixel of a batch to the sums.
 #extension GL_GOOGLE_include_directive : require
 #include "path/path.h"
+
+GPU_ENTRY(PathFinishParams, PATH_FINISH_CONSTANTS);
+layout(local_size_x = kPathGroup) in;
+
 #include "lib/dispatch.glsl"
 #include "path/pixel.glsl"
-
-layout(constant_id = 0) const bool kFeatures = false;
-
-layout(local_size_x = kPathGroup) in;
-layout(push_constant, scalar) uniform Push
-{
-    PathFinishParams params;
-};
 
 void main()
 {

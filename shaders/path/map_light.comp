@@ -3,18 +3,13 @@
 // Chooses a direction to the map, or to the sun, for each path of a list, and lists a shadow ray.
 #extension GL_GOOGLE_include_directive : require
 #include "path/path.h"
+
+GPU_ENTRY(PathLightParams, PATH_MAP_LIGHT_CONSTANTS);
+layout(local_size_x = kPathGroup) in;
+
 #include "lib/dispatch.glsl"
 #include "lib/ray.glsl"
 #include "path/state.glsl"
-
-layout(constant_id = 0) const uint kSampling = kSampleBoth; // how light is found
-
-layout(local_size_x = kPathGroup) in;
-layout(push_constant, scalar) uniform Push
-{
-    PathLightParams params;
-};
-
 #include "path/chosen_light.glsl"
 #include "path/lists.glsl"
 #include "path/map_light.glsl"

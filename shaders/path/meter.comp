@@ -3,14 +3,12 @@
 // Counts the pixels of each brightness, for the automatic exposure.
 #extension GL_GOOGLE_include_directive : require
 #include "path/path.h"
+
+GPU_ENTRY(PathMeterParams, GPU_NO_CONSTANTS);
+layout(local_size_x = kPathGroup) in;
+
 #include "lib/color.glsl"
 #include "lib/dispatch.glsl"
-
-layout(local_size_x = kPathGroup) in;
-layout(push_constant, scalar) uniform Push
-{
-    PathMeterParams params;
-};
 
 shared uint s_counts[kMeterBins];
 

@@ -3,18 +3,13 @@
 // Adds the light from outside of the grid that rays have met.
 #extension GL_GOOGLE_include_directive : require
 #include "path/path.h"
+
+GPU_ENTRY(PathLightParams, PATH_MISS_CONSTANTS);
+layout(local_size_x = kPathGroup) in;
+
 #include "lib/dispatch.glsl"
 #include "lib/ray.glsl"
 #include "path/state.glsl"
-
-layout(constant_id = 0) const uint kSampling = kSampleBoth; // how light is found
-
-layout(local_size_x = kPathGroup) in;
-layout(push_constant, scalar) uniform Push
-{
-    PathLightParams params;
-};
-
 #include "path/lists.glsl"
 #include "path/map_light.glsl"
 

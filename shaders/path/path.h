@@ -38,6 +38,7 @@
 #include "trace/light.h"
 
 GPU_ENUM(LightSampling, std::uint32_t) // kSampleBoth and so on
+#define GPU_TYPE_LightSampling uint
 
 GPU_NAMESPACE_BEGIN
 
@@ -107,9 +108,8 @@ struct PathBeginParams // push constants of path/begin: a thread a pixel
     uint pixel_count;
     uint sample_index;
 };
-GPU_KERNEL_BEGIN(path, begin, Begin, PathBeginParams)
-    GPU_CONSTANT(bool, orthographic, false)
-GPU_KERNEL_END
+#define PATH_BEGIN_CONSTANTS(CONSTANT) CONSTANT(0, bool, orthographic, kOrthographic, false)
+GPU_KERNEL(path, begin, Begin, PathBeginParams, PATH_BEGIN_CONSTANTS)
 
 struct PathShadeParams // push constants of path/shade: a thread a path
 {
@@ -128,14 +128,14 @@ struct PathShadeParams // push constants of path/shade: a thread a path
     uint sample_index;
     uint batch;
 };
-GPU_KERNEL_BEGIN(path, shade, Shade, PathShadeParams)
-    GPU_CONSTANT(uint, node_levels, 5u)
-    GPU_CONSTANT(AttributeFormat, format, kFormat8)
-    GPU_CONSTANT(bool, emission, false) // there are emissive voxels
-    GPU_CONSTANT(LightSampling, sampling, kSampleBoth)
-    GPU_CONSTANT(bool, last, false) // paths end here
-    GPU_CONSTANT(bool, roulette, false)
-GPU_KERNEL_END
+#define PATH_SHADE_CONSTANTS(CONSTANT)                                                                                 \
+    CONSTANT(0, uint, node_levels, kNodeLevels, 5u)                                                                    \
+    CONSTANT(1, AttributeFormat, format, kFormat, kFormat8)      /* of attributes */                                   \
+    CONSTANT(2, bool, emission, kEmission, false)                /* there are emissive voxels */                       \
+    CONSTANT(3, LightSampling, sampling, kSampling, kSampleBoth) /* how light is found */                              \
+    CONSTANT(4, bool, last, kLast, false)                        /* paths end here */                                  \
+    CONSTANT(5, bool, roulette, kRoulette, false)
+GPU_KERNEL(path, shade, Shade, PathShadeParams, PATH_SHADE_CONSTANTS)
 
 /// Push constants of the kernels that take a list of numbers of paths: a thread a number.
 struct PathLightParams
@@ -156,22 +156,22 @@ struct PathLightParams
     uint sample_index;
     uint batch;
 };
-GPU_KERNEL_BEGIN(path, miss, Miss, PathLightParams)
-    GPU_CONSTANT(LightSampling, sampling, kSampleBoth)
-GPU_KERNEL_END
-GPU_KERNEL_BEGIN(path, emitter, Emitter, PathLightParams)
-    GPU_CONSTANT(LightSampling, sampling, kSampleBoth)
-    GPU_CONSTANT(uint, node_levels, 5u)
-    GPU_CONSTANT(bool, by_power, false)
-GPU_KERNEL_END
-GPU_KERNEL_BEGIN(path, map_light, MapLight, PathLightParams)
-    GPU_CONSTANT(LightSampling, sampling, kSampleBoth)
-GPU_KERNEL_END
-GPU_KERNEL_BEGIN(path, voxel_light, VoxelLight, PathLightParams)
-    GPU_CONSTANT(LightSampling, sampling, kSampleBoth)
-    GPU_CONSTANT(uint, node_levels, 5u)
-    GPU_CONSTANT(bool, by_power, false)
-GPU_KERNEL_END
+#define PATH_MISS_CONSTANTS(CONSTANT)                                                                                  \
+    CONSTANT(0, LightSampling, sampling, kSampling, kSampleBoth) /* how light is found */
+GPU_KERNEL(path, miss, Miss, PathLightParams, PATH_MISS_CONSTANTS)
+#define PATH_EMITTER_CONSTANTS(CONSTANT)                                                                               \
+    CONSTANT(0, LightSampling, sampling, kSampling, kSampleBoth) /* how light is found */                              \
+    CONSTANT(1, uint, node_levels, kNodeLevels, 5u)                                                                    \
+    CONSTANT(2, bool, by_power, kByPower, false) /* lights are chosen whatever their place */
+GPU_KERNEL(path, emitter, Emitter, PathLightParams, PATH_EMITTER_CONSTANTS)
+#define PATH_MAP_LIGHT_CONSTANTS(CONSTANT)                                                                             \
+    CONSTANT(0, LightSampling, sampling, kSampling, kSampleBoth) /* how light is found */
+GPU_KERNEL(path, map_light, MapLight, PathLightParams, PATH_MAP_LIGHT_CONSTANTS)
+#define PATH_VOXEL_LIGHT_CONSTANTS(CONSTANT)                                                                           \
+    CONSTANT(0, LightSampling, sampling, kSampling, kSampleBoth) /* how light is found */                              \
+    CONSTANT(1, uint, node_levels, kNodeLevels, 5u)                                                                    \
+    CONSTANT(2, bool, by_power, kByPower, false) /* lights are chosen whatever their place */
+GPU_KERNEL(path, voxel_light, VoxelLight, PathLightParams, PATH_VOXEL_LIGHT_CONSTANTS)
 
 struct PathConnectParams // push constants of path/connect: a thread a shadow ray
 {
@@ -183,9 +183,8 @@ struct PathConnectParams // push constants of path/connect: a thread a shadow ra
     uint first_noted;      // the voxels from this index of attributes on
     uint bounce;
 };
-GPU_KERNEL_BEGIN(path, connect, Connect, PathConnectParams)
-    GPU_CONSTANT(bool, notes, false)
-GPU_KERNEL_END
+#define PATH_CONNECT_CONSTANTS(CONSTANT) CONSTANT(0, bool, notes, kNotes, false)
+GPU_KERNEL(path, connect, Connect, PathConnectParams, PATH_CONNECT_CONSTANTS)
 
 /// The sums of all samples of a pixel.
 struct PixelSum
@@ -220,10 +219,10 @@ struct PathFeaturesParams // push constants of path/features: a thread a pixel
     uint first_pixel;
     uint pixel_count;
 };
-GPU_KERNEL_BEGIN(path, features, Features, PathFeaturesParams)
-    GPU_CONSTANT(uint, node_levels, 5u)
-    GPU_CONSTANT(AttributeFormat, format, kFormat8)
-GPU_KERNEL_END
+#define PATH_FEATURES_CONSTANTS(CONSTANT)                                                                              \
+    CONSTANT(0, uint, node_levels, kNodeLevels, 5u)                                                                    \
+    CONSTANT(1, AttributeFormat, format, kFormat, kFormat8) /* of attributes */
+GPU_KERNEL(path, features, Features, PathFeaturesParams, PATH_FEATURES_CONSTANTS)
 
 struct PathFinishParams // push constants of path/finish: a thread a pixel
 {
@@ -234,9 +233,8 @@ struct PathFinishParams // push constants of path/finish: a thread a pixel
     uint first_pixel;
     uint pixel_count;
 };
-GPU_KERNEL_BEGIN(path, finish, Finish, PathFinishParams)
-    GPU_CONSTANT(bool, features, false)
-GPU_KERNEL_END
+#define PATH_FINISH_CONSTANTS(CONSTANT) CONSTANT(0, bool, features, kFeatures, false)
+GPU_KERNEL(path, finish, Finish, PathFinishParams, PATH_FINISH_CONSTANTS)
 
 struct PathTraceParams // push constants of path/trace: a workgroup takes kPathGroup * paths_of_thread pixels
 {
@@ -259,17 +257,17 @@ struct PathTraceParams // push constants of path/trace: a workgroup takes kPathG
     uint bounces;
     uint paths_of_thread; // on average of a workgroup
 };
-GPU_KERNEL_BEGIN(path, trace, Trace, PathTraceParams)
-    TRAVERSE_CONSTANTS
-    GPU_CONSTANT(bool, orthographic, false)
-    GPU_CONSTANT(AttributeFormat, format, kFormat8)
-    GPU_CONSTANT(bool, emission, false)
-    GPU_CONSTANT(LightSampling, sampling, kSampleBoth)
-    GPU_CONSTANT(bool, by_power, false)
-    GPU_CONSTANT(bool, roulette, false)
-    GPU_CONSTANT(bool, overlays, false)
-    GPU_CONSTANT(bool, features, false)
-GPU_KERNEL_END
+#define PATH_TRACE_CONSTANTS(CONSTANT)                                                                                 \
+    TRAVERSE_CONSTANTS(CONSTANT)                                                                                       \
+    CONSTANT(4, bool, orthographic, kOrthographic, false)                                                              \
+    CONSTANT(5, AttributeFormat, format, kFormat, kFormat8)      /* of attributes */                                   \
+    CONSTANT(6, bool, emission, kEmission, false)                /* there are emissive voxels */                       \
+    CONSTANT(7, LightSampling, sampling, kSampling, kSampleBoth) /* how light is found */                              \
+    CONSTANT(8, bool, by_power, kByPower, false)                 /* lights are chosen whatever their place */          \
+    CONSTANT(9, bool, roulette, kRoulette, false)                                                                      \
+    CONSTANT(10, bool, overlays, kOverlays, false) /* of a DAG */                                                      \
+    CONSTANT(11, bool, features, kFeatures, false)
+GPU_KERNEL(path, trace, Trace, PathTraceParams, PATH_TRACE_CONSTANTS)
 
 // The automatic exposure: counts of pixels by the logarithm of their luminance.
 const uint kMeterBins = 256u;
@@ -284,7 +282,7 @@ struct PathMeterParams // push constants of path/meter
     uint pixel_count;
     float sample_part; // 1 / number of samples
 };
-GPU_KERNEL(path, meter, Meter, PathMeterParams)
+GPU_KERNEL(path, meter, Meter, PathMeterParams, GPU_NO_CONSTANTS)
 
 struct PathExposeParams // push constants of path/expose: one workgroup
 {
@@ -292,7 +290,7 @@ struct PathExposeParams // push constants of path/expose: one workgroup
     GPU_PTR(float) exposure; // [1]
     float factor;
 };
-GPU_KERNEL(path, expose, Expose, PathExposeParams)
+GPU_KERNEL(path, expose, Expose, PathExposeParams, GPU_NO_CONSTANTS)
 
 struct PathDevelopParams // push constants of path/develop: a thread a pixel
 {
@@ -303,9 +301,8 @@ struct PathDevelopParams // push constants of path/develop: a thread a pixel
     uint height;
     float sample_part; // 1 / number of samples
 };
-GPU_KERNEL_BEGIN(path, develop, Develop, PathDevelopParams)
-    GPU_CONSTANT(TexelFormat, texels, kTexelRgba8)
-GPU_KERNEL_END
+#define PATH_DEVELOP_CONSTANTS(CONSTANT) CONSTANT(0, TexelFormat, texels, kTexels, kTexelRgba8)
+GPU_KERNEL(path, develop, Develop, PathDevelopParams, PATH_DEVELOP_CONSTANTS)
 
 GPU_NAMESPACE_END
 

@@ -4,25 +4,15 @@
 // for some paths alone is listed.
 #extension GL_GOOGLE_include_directive : require
 #include "path/path.h"
+
+GPU_ENTRY(PathShadeParams, PATH_SHADE_CONSTANTS);
+layout(local_size_x = kPathGroup) in;
+
 #include "lib/dispatch.glsl"
 #include "lib/emission.glsl"
 #include "lib/hit.glsl"
 #include "lib/ray.glsl"
 #include "path/state.glsl"
-
-layout(constant_id = 0) const uint kNodeLevels = 5u;
-layout(constant_id = 1) const uint kFormat = kFormat8;      // of attributes
-layout(constant_id = 2) const bool kEmission = false;       // there are emissive voxels
-layout(constant_id = 3) const uint kSampling = kSampleBoth; // how light is found
-layout(constant_id = 4) const bool kLast = false;           // paths end here
-layout(constant_id = 5) const bool kRoulette = false;
-
-layout(local_size_x = kPathGroup) in;
-layout(push_constant, scalar) uniform Push
-{
-    PathShadeParams params;
-};
-
 #include "path/lists.glsl"
 #include "path/next_ray.glsl"
 #include "trace/surface.glsl"

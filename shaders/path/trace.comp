@@ -13,27 +13,15 @@
 #extension GL_KHR_shader_subgroup_basic : require
 #extension GL_KHR_shader_subgroup_arithmetic : require
 #include "path/path.h"
+
+GPU_ENTRY(PathTraceParams, PATH_TRACE_CONSTANTS);
+layout(local_size_x = kPathGroup) in;
+
 #define NODES_BINDING 0
 #include "lib/bound.glsl"
 #include "lib/dispatch.glsl"
 #include "lib/traverse.glsl"
 #include "path/pixel.glsl"
-
-layout(constant_id = 4) const bool kOrthographic = false;
-layout(constant_id = 5) const uint kFormat = kFormat8;      // of attributes
-layout(constant_id = 6) const bool kEmission = false;       // there are emissive voxels
-layout(constant_id = 7) const uint kSampling = kSampleBoth; // how light is found
-layout(constant_id = 8) const bool kByPower = false;        // lights are chosen whatever their place
-layout(constant_id = 9) const bool kRoulette = false;
-layout(constant_id = 10) const bool kOverlays = false; // of a DAG
-layout(constant_id = 11) const bool kFeatures = false;
-
-layout(local_size_x = kPathGroup) in;
-layout(push_constant, scalar) uniform Push
-{
-    PathTraceParams params;
-};
-
 #include "path/camera_ray.glsl"
 #include "path/chosen_light.glsl"
 #include "path/feature_sum.glsl"

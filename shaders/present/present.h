@@ -18,7 +18,7 @@ struct ScaleParams // push constants of present/scale: one thread kScaleRows pix
     uvec2 from_size;          // at most 16384 along each edge, both
     uvec2 to_size;
 };
-GPU_KERNEL(present, scale, Scale, ScaleParams)
+GPU_KERNEL(present, scale, Scale, ScaleParams, GPU_NO_CONSTANTS)
 
 GPU_NAMESPACE_END
 

@@ -3,13 +3,11 @@
 // Scales a picture: each pixel copies the one that contains its centre.
 #extension GL_GOOGLE_include_directive : require
 #include "present/present.h"
-#include "lib/dispatch.glsl"
 
+GPU_ENTRY(ScaleParams, GPU_NO_CONSTANTS);
 layout(local_size_x = kScaleGroup) in;
-layout(push_constant, scalar) uniform Push
-{
-    ScaleParams params;
-};
+
+#include "lib/dispatch.glsl"
 
 // The pixel, in a line of from_size, that contains the centre of a pixel in a line of to_size: (2 pixel + 1) from_size
 // / (2 to_size), rounded down, and the remainder. In integers, so that all devices show the same.

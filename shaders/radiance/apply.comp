@@ -4,16 +4,14 @@
 // the n-th as much as its number: the light that faces reflect to each other is still dim in the first ones.
 #extension GL_GOOGLE_include_directive : require
 #include "radiance/radiance.h"
+
+GPU_ENTRY(RadianceApplyParams, GPU_NO_CONSTANTS);
+layout(local_size_x = kRadianceGroup) in;
+
 #include "lib/bound.glsl"
 #include "lib/color.glsl"
 #include "lib/dispatch.glsl"
 #include "lib/sampling.glsl"
-
-layout(local_size_x = kRadianceGroup) in;
-layout(push_constant, scalar) uniform Push
-{
-    RadianceApplyParams params;
-};
 
 #define FACES_BINDING 0
 #define STATES_BINDING 1

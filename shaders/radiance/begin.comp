@@ -3,21 +3,16 @@
 // Starts a path from a random point of each face that the frame samples, and lists the bricks around these faces.
 #extension GL_GOOGLE_include_directive : require
 #include "radiance/radiance.h"
+
+GPU_ENTRY(RadianceBeginParams, RADIANCE_BEGIN_CONSTANTS);
+layout(local_size_x = kRadianceGroup) in;
+
 #include "lib/bound.glsl"
 #include "lib/dispatch.glsl"
 #include "lib/face.glsl"
 #include "lib/ray.glsl"
 #include "lib/sampling.glsl"
 #include "path/state.glsl"
-
-layout(constant_id = 0) const uint kNodeLevels = 5u;
-layout(constant_id = 1) const bool kEmission = false; // there are emissive voxels
-
-layout(local_size_x = kRadianceGroup) in;
-layout(push_constant, scalar) uniform Push
-{
-    RadianceBeginParams params;
-};
 
 #define FACES_BINDING 0
 #define STATES_BINDING 1

@@ -9,6 +9,10 @@
 #define ZVO_NODE_LEVELS kNodeLevels
 #define ZVO_ENTRIES_PER_WORD kEntriesPerWord
 #include "radiance/radiance.h"
+
+GPU_ENTRY(RadianceConesParams, RADIANCE_CONES_CONSTANTS);
+layout(local_size_x = kRadianceGroup) in;
+
 #include "lib/bound.glsl"
 #include "lib/dispatch.glsl"
 #include "lib/face.glsl"
@@ -16,16 +20,6 @@
 #include "lib/sampling.glsl"
 #include "light/outside.glsl"
 #include "path/pixel.glsl"
-
-layout(constant_id = 0) const uint kNodeLevels = 5u;
-layout(constant_id = 1) const uint kEntriesPerWord = 0u;
-layout(constant_id = 2) const bool kOrthographic = false;
-
-layout(local_size_x = kRadianceGroup) in;
-layout(push_constant, scalar) uniform Push
-{
-    RadianceConesParams params;
-};
 
 #define FACES_BINDING 0
 #define HITS_BINDING 1

@@ -3,6 +3,10 @@
 // Adds the light of lamps, or from outside of the grid, to the pixels that see it directly.
 #extension GL_GOOGLE_include_directive : require
 #include "radiance/radiance.h"
+
+GPU_ENTRY(RadianceDirectParams, RADIANCE_DIRECT_CONSTANTS);
+layout(local_size_x = kRadianceGroup) in;
+
 #include "lib/bound.glsl"
 #include "lib/camera.glsl"
 #include "lib/dispatch.glsl"
@@ -11,15 +15,6 @@
 #include "light/environment.glsl"
 #include "light/outside.glsl"
 #include "path/pixel.glsl"
-
-layout(constant_id = 0) const bool kOrthographic = false;
-layout(constant_id = 1) const bool kEmission = false; // there are emissive voxels
-
-layout(local_size_x = kRadianceGroup) in;
-layout(push_constant, scalar) uniform Push
-{
-    RadianceDirectParams params;
-};
 
 #define HITS_BINDING 0
 #include "path/lists.glsl"

@@ -3,22 +3,16 @@
 // Takes paths that have hit a face without light: adds what the faces around it reflect, or goes on by one more ray.
 #extension GL_GOOGLE_include_directive : require
 #include "radiance/radiance.h"
+
+GPU_ENTRY(RadianceExtendParams, RADIANCE_EXTEND_CONSTANTS);
+layout(local_size_x = kRadianceGroup) in;
+
 #include "lib/bound.glsl"
 #include "lib/dispatch.glsl"
 #include "lib/face.glsl"
 #include "lib/hit.glsl"
 #include "lib/ray.glsl"
 #include "path/state.glsl"
-
-layout(constant_id = 0) const uint kNodeLevels = 5u;
-layout(constant_id = 1) const uint kFormat = kFormat8; // of attributes
-layout(constant_id = 2) const bool kEmission = false;  // there are emissive voxels
-
-layout(local_size_x = kRadianceGroup) in;
-layout(push_constant, scalar) uniform Push
-{
-    RadianceExtendParams params;
-};
 
 #define FACES_BINDING 0
 #define STATES_BINDING 1

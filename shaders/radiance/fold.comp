@@ -4,15 +4,12 @@
 // around them. Then the sums are 0 again, and the bricks are not listed.
 #extension GL_GOOGLE_include_directive : require
 #include "radiance/radiance.h"
+
+GPU_ENTRY(RadianceFoldParams, GPU_NO_CONSTANTS);
+layout(local_size_x = kRadianceGroup) in;
+
 #include "lib/dispatch.glsl"
 #include "lib/sampling.glsl"
-
-layout(local_size_x = kRadianceGroup) in;
-layout(push_constant, scalar) uniform Push
-{
-    RadianceFoldParams params;
-};
-
 #include "path/lists.glsl"
 #include "radiance/brick.glsl"
 #include "radiance/face_table.glsl"

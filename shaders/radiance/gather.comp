@@ -5,21 +5,15 @@
 // light of the faces beside it, or none.
 #extension GL_GOOGLE_include_directive : require
 #include "radiance/radiance.h"
+
+GPU_ENTRY(RadianceGatherParams, RADIANCE_GATHER_CONSTANTS);
+layout(local_size_x = kRadianceGroup) in;
+
 #include "lib/bound.glsl"
 #include "lib/dispatch.glsl"
 #include "lib/emission.glsl"
 #include "lib/ray.glsl"
 #include "path/state.glsl"
-
-layout(constant_id = 0) const uint kFormat = kFormat8; // of attributes
-layout(constant_id = 1) const bool kEmission = false;  // there are emissive voxels
-layout(constant_id = 2) const bool kEnds = false;      // the second rays of paths, with which these end
-
-layout(local_size_x = kRadianceGroup) in;
-layout(push_constant, scalar) uniform Push
-{
-    RadianceGatherParams params;
-};
 
 const uint kNodeLevels = 0u; // no hit is a node's
 #define FACES_BINDING 0

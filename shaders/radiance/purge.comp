@@ -3,14 +3,11 @@
 // Copies the faces that rays have hit lately into another table. What was listed is not.
 #extension GL_GOOGLE_include_directive : require
 #include "radiance/radiance.h"
-#include "lib/dispatch.glsl"
 
+GPU_ENTRY(RadiancePurgeParams, GPU_NO_CONSTANTS);
 layout(local_size_x = kRadianceGroup) in;
-layout(push_constant, scalar) uniform Push
-{
-    RadiancePurgeParams params;
-};
 
+#include "lib/dispatch.glsl"
 #include "radiance/face_table.glsl"
 #include "radiance/insert_face.glsl"
 #include "radiance/kept_face.glsl"

@@ -158,10 +158,10 @@ struct RadianceWantParams // push constants of radiance/want: a workgroup for ea
     uint run_count;
     uint frame; // some pixels of each 2x2 take part, in turns
 };
-GPU_KERNEL_BEGIN(radiance, want, Want, RadianceWantParams)
-    GPU_CONSTANT(bool, orthographic, false)
-    GPU_CONSTANT(uint, turns, 1u) // pixels of each 2x2 that take part: 1 to 4
-GPU_KERNEL_END
+#define RADIANCE_WANT_CONSTANTS(CONSTANT)                                                                              \
+    CONSTANT(0, bool, orthographic, kOrthographic, false)                                                              \
+    CONSTANT(1, uint, turns, kTurns, 1u) /* pixels of each 2x2 that take part: 1 to 4 */
+GPU_KERNEL(radiance, want, Want, RadianceWantParams, RADIANCE_WANT_CONSTANTS)
 
 struct RadianceTallyParams // push constants of radiance/tally: a thread a listed face
 {
@@ -173,7 +173,7 @@ struct RadianceTallyParams // push constants of radiance/tally: a thread a liste
     uint frame;
     uint budget; // the most faces that a frame takes
 };
-GPU_KERNEL(radiance, tally, Tally, RadianceTallyParams)
+GPU_KERNEL(radiance, tally, Tally, RadianceTallyParams, GPU_NO_CONSTANTS)
 
 struct RadianceTakeParams // push constants of radiance/take: a thread a listed face
 {
@@ -185,7 +185,7 @@ struct RadianceTakeParams // push constants of radiance/take: a thread a listed 
     GPU_PTR(uint) numbers; // as in RadianceBeginParams
     uint frame;
 };
-GPU_KERNEL(radiance, take, Take, RadianceTakeParams)
+GPU_KERNEL(radiance, take, Take, RadianceTakeParams, GPU_NO_CONSTANTS)
 
 struct RadianceBeginParams // push constants of radiance/begin: a thread a path
 {
@@ -205,10 +205,10 @@ struct RadianceBeginParams // push constants of radiance/begin: a thread a path
     uint sample_index;
     uint seed;
 };
-GPU_KERNEL_BEGIN(radiance, begin, Begin, RadianceBeginParams)
-    GPU_CONSTANT(uint, node_levels, 5u)
-    GPU_CONSTANT(bool, emission, false)
-GPU_KERNEL_END
+#define RADIANCE_BEGIN_CONSTANTS(CONSTANT)                                                                             \
+    CONSTANT(0, uint, node_levels, kNodeLevels, 5u)                                                                    \
+    CONSTANT(1, bool, emission, kEmission, false) /* there are emissive voxels */
+GPU_KERNEL(radiance, begin, Begin, RadianceBeginParams, RADIANCE_BEGIN_CONSTANTS)
 
 struct RadianceSurroundParams // push constants of radiance/surround: a thread a listed brick of a level
 {
@@ -221,7 +221,7 @@ struct RadianceSurroundParams // push constants of radiance/surround: a thread a
     uint run_count;
     uint level;
 };
-GPU_KERNEL(radiance, surround, Surround, RadianceSurroundParams)
+GPU_KERNEL(radiance, surround, Surround, RadianceSurroundParams, GPU_NO_CONSTANTS)
 
 struct RadianceGatherParams // push constants of radiance/gather: a thread a path
 {
@@ -243,11 +243,11 @@ struct RadianceGatherParams // push constants of radiance/gather: a thread a pat
     uint frame;
     uint first_moving; // index of attributes from which on voxels are those of overlays; kHitMiss: none
 };
-GPU_KERNEL_BEGIN(radiance, gather, Gather, RadianceGatherParams)
-    GPU_CONSTANT(AttributeFormat, format, kFormat8)
-    GPU_CONSTANT(bool, emission, false)
-    GPU_CONSTANT(bool, ends, false)
-GPU_KERNEL_END
+#define RADIANCE_GATHER_CONSTANTS(CONSTANT)                                                                            \
+    CONSTANT(0, AttributeFormat, format, kFormat, kFormat8) /* of attributes */                                        \
+    CONSTANT(1, bool, emission, kEmission, false)           /* there are emissive voxels */                            \
+    CONSTANT(2, bool, ends, kEnds, false)                   /* the second rays of paths, with which these end */
+GPU_KERNEL(radiance, gather, Gather, RadianceGatherParams, RADIANCE_GATHER_CONSTANTS)
 
 struct RadianceExtendParams // push constants of radiance/extend: a thread a path that has hit a face without light
 {
@@ -269,11 +269,11 @@ struct RadianceExtendParams // push constants of radiance/extend: a thread a pat
     uint run_count;
     uint sample_index;
 };
-GPU_KERNEL_BEGIN(radiance, extend, Extend, RadianceExtendParams)
-    GPU_CONSTANT(uint, node_levels, 5u)
-    GPU_CONSTANT(AttributeFormat, format, kFormat8)
-    GPU_CONSTANT(bool, emission, false)
-GPU_KERNEL_END
+#define RADIANCE_EXTEND_CONSTANTS(CONSTANT)                                                                            \
+    CONSTANT(0, uint, node_levels, kNodeLevels, 5u)                                                                    \
+    CONSTANT(1, AttributeFormat, format, kFormat, kFormat8) /* of attributes */                                        \
+    CONSTANT(2, bool, emission, kEmission, false)           /* there are emissive voxels */
+GPU_KERNEL(radiance, extend, Extend, RadianceExtendParams, RADIANCE_EXTEND_CONSTANTS)
 
 struct RadianceApplyParams // push constants of radiance/apply: a thread a path
 {
@@ -290,7 +290,7 @@ struct RadianceApplyParams // push constants of radiance/apply: a thread a path
     uint touched_window; // the most samples of a face one of whose rays has hit what moves
     uint moved_window;   // the most samples where what moves matters
 };
-GPU_KERNEL(radiance, apply, Apply, RadianceApplyParams)
+GPU_KERNEL(radiance, apply, Apply, RadianceApplyParams, GPU_NO_CONSTANTS)
 
 struct RadianceFoldParams // push constants of radiance/fold: a thread a listed brick of a level
 {
@@ -306,7 +306,7 @@ struct RadianceFoldParams // push constants of radiance/fold: a thread a listed 
     uint window;       // the most samples that means count
     uint moved_window; // the most samples where something moves
 };
-GPU_KERNEL(radiance, fold, Fold, RadianceFoldParams)
+GPU_KERNEL(radiance, fold, Fold, RadianceFoldParams, GPU_NO_CONSTANTS)
 
 struct RadiancePurgeParams // push constants of radiance/purge: a thread a slot of the old table
 {
@@ -319,7 +319,7 @@ struct RadiancePurgeParams // push constants of radiance/purge: a thread a slot 
     uint frame;
     uint age_max; // frames; faces that no ray has hit for longer are left out
 };
-GPU_KERNEL(radiance, purge, Purge, RadiancePurgeParams)
+GPU_KERNEL(radiance, purge, Purge, RadiancePurgeParams, GPU_NO_CONSTANTS)
 
 struct RadianceViewParams // push constants of radiance/view: a thread a pixel, in the order of path/path.h
 {
@@ -336,14 +336,14 @@ struct RadianceViewParams // push constants of radiance/view: a thread a pixel, 
     uint height;
     uint run_count;
 };
-GPU_KERNEL_BEGIN(radiance, view, View, RadianceViewParams)
-    GPU_CONSTANT(uint, node_levels, 5u)
-    GPU_CONSTANT(bool, orthographic, false)
-    GPU_CONSTANT(AttributeFormat, format, kFormat8)
-    GPU_CONSTANT(bool, emission, false)
-    GPU_CONSTANT(bool, reflects, true)
-    GPU_CONSTANT(bool, adds, true)
-GPU_KERNEL_END
+#define RADIANCE_VIEW_CONSTANTS(CONSTANT)                                                                              \
+    CONSTANT(0, uint, node_levels, kNodeLevels, 5u)                                                                    \
+    CONSTANT(1, bool, orthographic, kOrthographic, false)                                                              \
+    CONSTANT(2, AttributeFormat, format, kFormat, kFormat8) /* of attributes */                                        \
+    CONSTANT(3, bool, emission, kEmission, false)           /* there are emissive voxels */                            \
+    CONSTANT(4, bool, reflects, kReflects, true)            /* false: pixels are only listed */                        \
+    CONSTANT(5, bool, adds, kAdds, true)                    /* false: sets the sums */
+GPU_KERNEL(radiance, view, View, RadianceViewParams, RADIANCE_VIEW_CONSTANTS)
 
 struct RadianceConesParams // push constants of radiance/cones: a thread a pixel, in the order of path/path.h
 {
@@ -361,11 +361,11 @@ struct RadianceConesParams // push constants of radiance/cones: a thread a pixel
     uint frame;
     uint seed;
 };
-GPU_KERNEL_BEGIN(radiance, cones, Cones, RadianceConesParams)
-    GPU_CONSTANT(uint, node_levels, 5u)
-    GPU_CONSTANT(uint, entries_per_word, 0u)
-    GPU_CONSTANT(bool, orthographic, false)
-GPU_KERNEL_END
+#define RADIANCE_CONES_CONSTANTS(CONSTANT)                                                                             \
+    CONSTANT(0, uint, node_levels, kNodeLevels, 5u)                                                                    \
+    CONSTANT(1, uint, entries_per_word, kEntriesPerWord, 0u)                                                           \
+    CONSTANT(2, bool, orthographic, kOrthographic, false)
+GPU_KERNEL(radiance, cones, Cones, RadianceConesParams, RADIANCE_CONES_CONSTANTS)
 
 struct RadianceDirectParams // push constants of radiance/direct: a thread a pixel that sees light directly
 {
@@ -382,10 +382,10 @@ struct RadianceDirectParams // push constants of radiance/direct: a thread a pix
     uint width;
     uint height;
 };
-GPU_KERNEL_BEGIN(radiance, direct, Direct, RadianceDirectParams)
-    GPU_CONSTANT(bool, orthographic, false)
-    GPU_CONSTANT(bool, emission, false)
-GPU_KERNEL_END
+#define RADIANCE_DIRECT_CONSTANTS(CONSTANT)                                                                            \
+    CONSTANT(0, bool, orthographic, kOrthographic, false)                                                              \
+    CONSTANT(1, bool, emission, kEmission, false) /* there are emissive voxels */
+GPU_KERNEL(radiance, direct, Direct, RadianceDirectParams, RADIANCE_DIRECT_CONSTANTS)
 
 GPU_NAMESPACE_END
 

@@ -3,13 +3,11 @@
 // Lists the bricks of a level around the listed ones of the level before.
 #extension GL_GOOGLE_include_directive : require
 #include "radiance/radiance.h"
-#include "lib/dispatch.glsl"
 
+GPU_ENTRY(RadianceSurroundParams, GPU_NO_CONSTANTS);
 layout(local_size_x = kRadianceGroup) in;
-layout(push_constant, scalar) uniform Push
-{
-    RadianceSurroundParams params;
-};
+
+#include "lib/dispatch.glsl"
 
 #define STATES_BINDING 1
 #include "path/lists.glsl"

@@ -3,14 +3,12 @@
 // Takes faces off the frame's list, and lists those that the frame samples.
 #extension GL_GOOGLE_include_directive : require
 #include "radiance/radiance.h"
+
+GPU_ENTRY(RadianceTakeParams, GPU_NO_CONSTANTS);
+layout(local_size_x = kRadianceGroup) in;
+
 #include "lib/bound.glsl"
 #include "lib/dispatch.glsl"
-
-layout(local_size_x = kRadianceGroup) in;
-layout(push_constant, scalar) uniform Push
-{
-    RadianceTakeParams params;
-};
 
 #define FACES_BINDING 0
 #define STATES_BINDING 1

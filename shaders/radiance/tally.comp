@@ -4,15 +4,13 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_KHR_shader_subgroup_arithmetic : require
 #include "radiance/radiance.h"
+
+GPU_ENTRY(RadianceTallyParams, GPU_NO_CONSTANTS);
+layout(local_size_x = kRadianceGroup) in;
+
 #include "lib/arrivals.glsl"
 #include "lib/bound.glsl"
 #include "lib/dispatch.glsl"
-
-layout(local_size_x = kRadianceGroup) in;
-layout(push_constant, scalar) uniform Push
-{
-    RadianceTallyParams params;
-};
 
 #define FACES_BINDING 0
 #define STATES_BINDING 1

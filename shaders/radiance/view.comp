@@ -4,6 +4,10 @@
 // see a lamp, or nothing, are listed.
 #extension GL_GOOGLE_include_directive : require
 #include "radiance/radiance.h"
+
+GPU_ENTRY(RadianceViewParams, RADIANCE_VIEW_CONSTANTS);
+layout(local_size_x = kRadianceGroup) in;
+
 #include "lib/bound.glsl"
 #include "lib/camera.glsl"
 #include "lib/dispatch.glsl"
@@ -11,19 +15,6 @@
 #include "lib/face.glsl"
 #include "lib/hit.glsl"
 #include "path/pixel.glsl"
-
-layout(constant_id = 0) const uint kNodeLevels = 5u;
-layout(constant_id = 1) const bool kOrthographic = false;
-layout(constant_id = 2) const uint kFormat = kFormat8; // of attributes
-layout(constant_id = 3) const bool kEmission = false;  // there are emissive voxels
-layout(constant_id = 4) const bool kReflects = true;   // false: pixels are only listed
-layout(constant_id = 5) const bool kAdds = true;       // false: sets the sums
-
-layout(local_size_x = kRadianceGroup) in;
-layout(push_constant, scalar) uniform Push
-{
-    RadianceViewParams params;
-};
 
 #define FACES_BINDING 0
 #define HITS_BINDING 1

@@ -4,20 +4,15 @@
 // frame, in turns.
 #extension GL_GOOGLE_include_directive : require
 #include "radiance/radiance.h"
+
+GPU_ENTRY(RadianceWantParams, RADIANCE_WANT_CONSTANTS);
+layout(local_size_x = kTilePixels / 4u) in;
+
 #include "lib/bound.glsl"
 #include "lib/camera.glsl"
 #include "lib/dispatch.glsl"
 #include "lib/face.glsl"
 #include "lib/hit.glsl"
-
-layout(constant_id = 0) const bool kOrthographic = false;
-layout(constant_id = 1) const uint kTurns = 1u; // pixels of each 2x2 that take part
-
-layout(local_size_x = kTilePixels / 4u) in;
-layout(push_constant, scalar) uniform Push
-{
-    RadianceWantParams params;
-};
 
 #define FACES_BINDING 0
 #define HITS_BINDING 2

@@ -6,17 +6,22 @@
 //   GPU_CONST_PTR(T)       device address of T[], read only:    .data[i] in GLSL, zvo::gpu::ConstPtr<T> in C++
 //   GPU_FUNCTION           before the definition of a function of both languages, such as one that packs bit fields
 //
-// Beside the parameters of a kernel stands its declaration, which C++ alone reads. The build compares it with the
-// SPIR-V (vk/kernel_declaration.h):
+// Beside the parameters of a kernel stands its declaration: its specialization constants, each with its number, its
+// type, its names in C++ and in GLSL and its default value, and the kernel.
 //
-//   GPU_KERNEL_BEGIN(update, expand, Expand, ExpandParams)   zvo::gpu::update::Expand stands for update/expand, which
-//       GPU_CONSTANT(bool, wide_keys, false)                 takes ExpandParams. Its specialization constants are
-//       GPU_CONSTANT(uint, entries_per_word, 0u)             kWideKeys and kEntriesPerWord, with the constant_ids 0 and
-//   GPU_KERNEL_END                                           1 and these default values
+//   #define UPDATE_EXPAND_CONSTANTS(CONSTANT)
+//       CONSTANT(0, bool, wide_keys, kWideKeys, false)
+//       CONSTANT(1, uint, entries_per_word, kEntriesPerWord, 0u)
+//   GPU_KERNEL(update, expand, Expand, ExpandParams, UPDATE_EXPAND_CONSTANTS)
 //
-//   GPU_KERNEL(octree, scan, Scan, ScanParams)               the same without constants
-//   GPU_ENUM(View, std::uint32_t)                            zvo::View is an enum class, defined where the host needs
-//                                                            it, and a type of constants. In GLSL they are uints
+// In C++, zvo::gpu::update::Expand then stands for update/expand; its members are the constants. In update/expand.comp,
+//
+//   GPU_ENTRY(ExpandParams, UPDATE_EXPAND_CONSTANTS);
+//
+// makes them, and `params`. A kernel without constants has GPU_NO_CONSTANTS.
+//
+//   GPU_ENUM(View, std::uint32_t)   zvo::View is an enum class, defined where the host needs it, and a type of
+//   constants. #define GPU_TYPE_View uint      Its type in GLSL
 //
 // Bound forms (lib/bound.glsl) need no declaration of their own: their bindings have the names of parameters.
 //
@@ -27,6 +32,7 @@
 #ifdef __cplusplus
 
 #include <concepts>
+#include <cstddef>
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <string_view>
@@ -66,30 +72,10 @@ public:
     static_assert(std::is_same_v<T, bool> || std::is_same_v<T, std::int32_t> || std::is_same_v<T, std::uint32_t> ||
                   (std::is_enum_v<T> && sizeof(T) == sizeof(std::uint32_t)));
 
-    constexpr Constant(std::string_view /*name*/, T value) : m_word(static_cast<std::uint32_t>(value)) {}
     template <std::same_as<T> Value> constexpr Constant(Value value) : m_word(static_cast<std::uint32_t>(value)) {}
 
 private:
     std::uint32_t m_word;
-};
-
-/// What a declaration says of a constant: its name in C++, its type and its default value.
-struct ConstantDescription
-{
-    std::string_view name;
-    bool is_bool;
-    bool is_signed;
-    std::uint32_t value;
-};
-
-/// Stands where a Constant<T> stands in the same kernel.
-template <typename T> struct DescribedConstant : ConstantDescription
-{
-    constexpr DescribedConstant(std::string_view constant_name, T default_value)
-        : ConstantDescription{constant_name, std::is_same_v<T, bool>, std::is_same_v<T, std::int32_t>,
-                              static_cast<std::uint32_t>(default_value)}
-    {
-    }
 };
 
 } // namespace zvo::gpu
@@ -103,25 +89,24 @@ template <typename T> struct DescribedConstant : ConstantDescription
 #define GPU_FUNCTION inline
 #define GPU_BUFFER(T, ALIGN) static_assert(alignof(T) <= (ALIGN) && sizeof(T) % (ALIGN) == 0)
 
-#define GPU_KERNEL_BEGIN(OPERATION, KERNEL, NAME, PARAMS)                                                              \
+#define GPU_CONSTANT_MEMBER(ID, TYPE, NAME, SHADER_NAME, VALUE) Constant<TYPE> NAME = TYPE{VALUE};
+#define GPU_CONSTANT_CHECK(ID, TYPE, NAME, SHADER_NAME, VALUE)                                                         \
+    static_assert(offsetof(Self, NAME) == (ID) * sizeof(uint), #NAME " is not where its number says");
+#define GPU_KERNEL(OPERATION, KERNEL, NAME, PARAMS, CONSTANTS)                                                         \
     namespace OPERATION                                                                                                \
     {                                                                                                                  \
-    template <template <typename> typename ConstantOf> struct NAME##Kernel;                                            \
-    using NAME = NAME##Kernel<Constant>;                                                                               \
-    template <template <typename> typename ConstantOf> struct NAME##Kernel                                             \
+    struct NAME                                                                                                        \
     {                                                                                                                  \
         using Params = PARAMS;                                                                                         \
-        using Description = NAME##Kernel<DescribedConstant>;                                                           \
         static constexpr std::string_view kName = #OPERATION "/" #KERNEL;                                              \
-        static constexpr std::string_view kParamsName = #PARAMS;
-#define GPU_CONSTANT(TYPE, NAME, VALUE) ConstantOf<TYPE> NAME = {#NAME, TYPE{VALUE}};
-#define GPU_KERNEL_END                                                                                                 \
-    }                                                                                                                  \
-    ;                                                                                                                  \
+        CONSTANTS(GPU_CONSTANT_MEMBER)                                                                                 \
+        static void checkNumbers()                                                                                     \
+        {                                                                                                              \
+            using Self [[maybe_unused]] = NAME;                                                                        \
+            CONSTANTS(GPU_CONSTANT_CHECK)                                                                              \
+        }                                                                                                              \
+    };                                                                                                                 \
     }
-#define GPU_KERNEL(OPERATION, KERNEL, NAME, PARAMS)                                                                    \
-    GPU_KERNEL_BEGIN(OPERATION, KERNEL, NAME, PARAMS)                                                                  \
-    GPU_KERNEL_END
 #define GPU_ENUM(NAME, TYPE)                                                                                           \
     namespace zvo                                                                                                      \
     {                                                                                                                  \
@@ -151,13 +136,23 @@ template <typename T> struct DescribedConstant : ConstantDescription
         T data[];                                                                                                      \
     }
 
-#define GPU_KERNEL_BEGIN(OPERATION, KERNEL, NAME, PARAMS)
-#define GPU_CONSTANT(TYPE, NAME, VALUE)
-#define GPU_KERNEL_END
-#define GPU_KERNEL(OPERATION, KERNEL, NAME, PARAMS)
+#define GPU_TYPE_bool bool
+#define GPU_TYPE_int int
+#define GPU_TYPE_uint uint
+#define GPU_CONSTANT(ID, TYPE, NAME, SHADER_NAME, VALUE)                                                               \
+    layout(constant_id = ID) const GPU_TYPE_##TYPE SHADER_NAME = VALUE;
+#define GPU_ENTRY(PARAMS, CONSTANTS)                                                                                   \
+    CONSTANTS(GPU_CONSTANT)                                                                                            \
+    layout(push_constant, scalar) uniform Push                                                                         \
+    {                                                                                                                  \
+        PARAMS params;                                                                                                 \
+    }
+#define GPU_KERNEL(OPERATION, KERNEL, NAME, PARAMS, CONSTANTS)
 #define GPU_ENUM(NAME, TYPE)
 
 #endif
+
+#define GPU_NO_CONSTANTS(CONSTANT)
 
 GPU_NAMESPACE_BEGIN
 

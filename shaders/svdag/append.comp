@@ -3,16 +3,12 @@
 // Copies inner nodes of a level of one DAG, with their lists, behind those of another that has two entries a word.
 #extension GL_GOOGLE_include_directive : require
 #include "svdag/svdag.h"
+
+GPU_ENTRY(AppendParams, SVDAG_APPEND_CONSTANTS);
+layout(local_size_x = kSvdagGroup) in;
+
 #include "lib/dispatch.glsl"
 #include "lib/node.glsl"
-
-layout(constant_id = 0) const uint kEntriesPerWord = 2u; // of the lists that are copied
-
-layout(local_size_x = kSvdagGroup) in;
-layout(push_constant, scalar) uniform Push
-{
-    AppendParams params;
-};
 
 void main()
 {

@@ -3,18 +3,13 @@
 // Unique nodes, and words of their lists, in each block of kScanBlock candidates.
 #extension GL_GOOGLE_include_directive : require
 #include "svdag/svdag.h"
+
+GPU_ENTRY(ClassCountParams, SVDAG_COUNT_CONSTANTS);
+layout(local_size_x = kScanGroup) in;
+
 #define SCAN_GROUP kScanGroup
 #include "lib/dispatch.glsl"
 #include "lib/scan.glsl"
-
-layout(constant_id = 0) const uint kEntriesPerWord = 0u; // of candidates' lists; 0: there are none
-
-layout(local_size_x = kScanGroup) in;
-layout(push_constant, scalar) uniform Push
-{
-    ClassCountParams params;
-};
-
 #include "svdag/candidate.glsl"
 
 void main()

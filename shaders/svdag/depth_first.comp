@@ -4,19 +4,11 @@
 // Levels go from the root down; the root's rank is 0.
 #extension GL_GOOGLE_include_directive : require
 #include "svdag/svdag.h"
-#include "lib/dispatch.glsl"
 
-layout(constant_id = 0) const uint kEntriesPerWord = 0u; // of candidates' lists; 0: there are none
-layout(constant_id = 1) const bool kAboveLeaves = false; // the children are leaves
-layout(constant_id = 2) const bool kPacked = false;      // attributes are words
-layout(constant_id = 3) const uint kLanes = 1u;          // threads that share a node, a power of two
-
+GPU_ENTRY(DepthFirstParams, SVDAG_DEPTH_FIRST_CONSTANTS);
 layout(local_size_x = kSvdagGroup) in;
-layout(push_constant, scalar) uniform Push
-{
-    DepthFirstParams params;
-};
 
+#include "lib/dispatch.glsl"
 #include "svdag/candidate.glsl"
 
 void moveAttribute(uint from, uint to)

@@ -3,17 +3,12 @@
 // Computes a hash of 64 bits of each inner node of a level, from its mask and the classes of its children.
 #extension GL_GOOGLE_include_directive : require
 #include "svdag/svdag.h"
+
+GPU_ENTRY(ClassHashParams, SVDAG_HASH_CONSTANTS);
+layout(local_size_x = kSvdagGroup) in;
+
 #include "lib/dispatch.glsl"
 #include "lib/sampling.glsl"
-
-layout(constant_id = 0) const uint kEntriesPerWord = 0u; // of candidates' lists; 0: there are none
-
-layout(local_size_x = kSvdagGroup) in;
-layout(push_constant, scalar) uniform Push
-{
-    ClassHashParams params;
-};
-
 #include "svdag/candidate.glsl"
 
 // Two chains, so that no common change of several children leaves both unchanged.

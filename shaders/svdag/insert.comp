@@ -6,17 +6,11 @@
 // does not.
 #extension GL_GOOGLE_include_directive : require
 #include "svdag/svdag.h"
-#include "lib/dispatch.glsl"
 
-layout(constant_id = 0) const uint kEntriesPerWord = 0u; // of candidates' lists; 0: there are none
-layout(constant_id = 1) const bool kLeaves = false; // of the level: equal masks are enough
-
+GPU_ENTRY(ClassInsertParams, SVDAG_INSERT_CONSTANTS);
 layout(local_size_x = kSvdagGroup) in;
-layout(push_constant, scalar) uniform Push
-{
-    ClassInsertParams params;
-};
 
+#include "lib/dispatch.glsl"
 #include "svdag/candidate.glsl"
 
 // Compares the children of inner nodes. equal: their masks are equal.

@@ -3,13 +3,11 @@
 // Writes the unique leaves.
 #extension GL_GOOGLE_include_directive : require
 #include "svdag/svdag.h"
-#include "lib/dispatch.glsl"
 
+GPU_ENTRY(UniqueLeavesParams, GPU_NO_CONSTANTS);
 layout(local_size_x = kSvdagGroup) in;
-layout(push_constant, scalar) uniform Push
-{
-    UniqueLeavesParams params;
-};
+
+#include "lib/dispatch.glsl"
 
 void main()
 {

@@ -4,19 +4,11 @@
 // from the leaves up, as what is below a node is the sum of what is below its children.
 #extension GL_GOOGLE_include_directive : require
 #include "svdag/svdag.h"
-#include "lib/dispatch.glsl"
 
-layout(constant_id = 0) const uint kEntriesPerWord = 0u; // of candidates' lists; 0: there are none
-layout(constant_id = 1) const bool kBefore = false;       // there are attributes
-layout(constant_id = 2) const bool kAboveLeaves = false;  // the children are leaves
-layout(constant_id = 3) const uint kPerWord = 2u;         // entries of the lists that are written
-
+GPU_ENTRY(UniqueListsParams, SVDAG_LISTS_CONSTANTS);
 layout(local_size_x = kSvdagGroup) in;
-layout(push_constant, scalar) uniform Push
-{
-    UniqueListsParams params;
-};
 
+#include "lib/dispatch.glsl"
 #include "svdag/candidate.glsl"
 
 // Voxels below a node, and nodes, itself included.

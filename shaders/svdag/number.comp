@@ -3,18 +3,13 @@
 // Numbers the unique nodes in the order of the candidates, and their lists in the same order.
 #extension GL_GOOGLE_include_directive : require
 #include "svdag/svdag.h"
+
+GPU_ENTRY(ClassNumberParams, SVDAG_NUMBER_CONSTANTS);
+layout(local_size_x = kScanGroup) in;
+
 #define SCAN_GROUP kScanGroup
 #include "lib/dispatch.glsl"
 #include "lib/scan.glsl"
-
-layout(constant_id = 0) const uint kEntriesPerWord = 0u; // of candidates' lists; 0: there are none
-
-layout(local_size_x = kScanGroup) in;
-layout(push_constant, scalar) uniform Push
-{
-    ClassNumberParams params;
-};
-
 #include "svdag/candidate.glsl"
 
 void main()

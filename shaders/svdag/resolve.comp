@@ -3,13 +3,11 @@
 // Replaces the slot of each node of a level by its class.
 #extension GL_GOOGLE_include_directive : require
 #include "svdag/svdag.h"
-#include "lib/dispatch.glsl"
 
+GPU_ENTRY(ClassResolveParams, GPU_NO_CONSTANTS);
 layout(local_size_x = kSvdagGroup) in;
-layout(push_constant, scalar) uniform Push
-{
-    ClassResolveParams params;
-};
+
+#include "lib/dispatch.glsl"
 
 void main()
 {

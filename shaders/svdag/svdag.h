@@ -34,9 +34,9 @@ struct ClassHashParams // push constants of svdag/hash
     uint node_count;
     uint hash_mask; // bits of both halves of a hash that are kept
 };
-GPU_KERNEL_BEGIN(svdag, hash, Hash, ClassHashParams)
-    GPU_CONSTANT(uint, entries_per_word, 0u)
-GPU_KERNEL_END
+#define SVDAG_HASH_CONSTANTS(CONSTANT)                                                                                 \
+    CONSTANT(0, uint, entries_per_word, kEntriesPerWord, 0u) /* of candidates' lists; 0: there are none */
+GPU_KERNEL(svdag, hash, Hash, ClassHashParams, SVDAG_HASH_CONSTANTS)
 
 struct ClassInsertParams // push constants of svdag/insert
 {
@@ -51,10 +51,10 @@ struct ClassInsertParams // push constants of svdag/insert
     uint slot_mask;  // its slots, a power of two, less one
     uint level;
 };
-GPU_KERNEL_BEGIN(svdag, insert, Insert, ClassInsertParams)
-    GPU_CONSTANT(uint, entries_per_word, 0u)
-    GPU_CONSTANT(bool, leaves, false)
-GPU_KERNEL_END
+#define SVDAG_INSERT_CONSTANTS(CONSTANT)                                                                               \
+    CONSTANT(0, uint, entries_per_word, kEntriesPerWord, 0u) /* of candidates' lists; 0: there are none */             \
+    CONSTANT(1, bool, leaves, kLeaves, false)                /* of the level: equal masks are enough */
+GPU_KERNEL(svdag, insert, Insert, ClassInsertParams, SVDAG_INSERT_CONSTANTS)
 
 struct ClassResolveParams // push constants of svdag/resolve
 {
@@ -63,7 +63,7 @@ struct ClassResolveParams // push constants of svdag/resolve
     uint first_node;
     uint node_count;
 };
-GPU_KERNEL(svdag, resolve, Resolve, ClassResolveParams)
+GPU_KERNEL(svdag, resolve, Resolve, ClassResolveParams, GPU_NO_CONSTANTS)
 
 struct ClassCountParams // push constants of svdag/count
 {
@@ -74,9 +74,9 @@ struct ClassCountParams // push constants of svdag/count
     uint node_count;              // candidates
     uint inner_count;             // those above the leaves
 };
-GPU_KERNEL_BEGIN(svdag, count, Count, ClassCountParams)
-    GPU_CONSTANT(uint, entries_per_word, 0u)
-GPU_KERNEL_END
+#define SVDAG_COUNT_CONSTANTS(CONSTANT)                                                                                \
+    CONSTANT(0, uint, entries_per_word, kEntriesPerWord, 0u) /* of candidates' lists; 0: there are none */
+GPU_KERNEL(svdag, count, Count, ClassCountParams, SVDAG_COUNT_CONSTANTS)
 
 struct ClassNumberParams // push constants of svdag/number
 {
@@ -90,9 +90,9 @@ struct ClassNumberParams // push constants of svdag/number
     uint node_count;
     uint inner_count;
 };
-GPU_KERNEL_BEGIN(svdag, number, Number, ClassNumberParams)
-    GPU_CONSTANT(uint, entries_per_word, 0u)
-GPU_KERNEL_END
+#define SVDAG_NUMBER_CONSTANTS(CONSTANT)                                                                               \
+    CONSTANT(0, uint, entries_per_word, kEntriesPerWord, 0u) /* of candidates' lists; 0: there are none */
+GPU_KERNEL(svdag, number, Number, ClassNumberParams, SVDAG_NUMBER_CONSTANTS)
 
 struct UniqueLeavesParams // push constants of svdag/leaves
 {
@@ -102,7 +102,7 @@ struct UniqueLeavesParams // push constants of svdag/leaves
     uint first_node; // of the DAG
     uint node_count;
 };
-GPU_KERNEL(svdag, leaves, Leaves, UniqueLeavesParams)
+GPU_KERNEL(svdag, leaves, Leaves, UniqueLeavesParams, GPU_NO_CONSTANTS)
 
 struct UniqueListsParams // push constants of svdag/lists
 {
@@ -121,12 +121,12 @@ struct UniqueListsParams // push constants of svdag/lists
     uint first_index;      // of entries
     uint long_entry_count; // entries before those of the parents of leaves
 };
-GPU_KERNEL_BEGIN(svdag, lists, Lists, UniqueListsParams)
-    GPU_CONSTANT(uint, entries_per_word, 0u)
-    GPU_CONSTANT(bool, before, false)
-    GPU_CONSTANT(bool, above_leaves, false)
-    GPU_CONSTANT(uint, per_word, 2u)
-GPU_KERNEL_END
+#define SVDAG_LISTS_CONSTANTS(CONSTANT)                                                                                \
+    CONSTANT(0, uint, entries_per_word, kEntriesPerWord, 0u) /* of candidates' lists; 0: there are none */             \
+    CONSTANT(1, bool, before, kBefore, false)                /* there are attributes */                                \
+    CONSTANT(2, bool, above_leaves, kAboveLeaves, false)     /* the children are leaves */                             \
+    CONSTANT(3, uint, per_word, kPerWord, 2u)                /* entries of the lists that are written */
+GPU_KERNEL(svdag, lists, Lists, UniqueListsParams, SVDAG_LISTS_CONSTANTS)
 
 struct DepthFirstParams // push constants of svdag/depth_first
 {
@@ -140,12 +140,12 @@ struct DepthFirstParams // push constants of svdag/depth_first
     uint first_node;
     uint node_count;
 };
-GPU_KERNEL_BEGIN(svdag, depth_first, DepthFirst, DepthFirstParams)
-    GPU_CONSTANT(uint, entries_per_word, 0u)
-    GPU_CONSTANT(bool, above_leaves, false)
-    GPU_CONSTANT(bool, packed, false)
-    GPU_CONSTANT(uint, lanes, 1u)
-GPU_KERNEL_END
+#define SVDAG_DEPTH_FIRST_CONSTANTS(CONSTANT)                                                                          \
+    CONSTANT(0, uint, entries_per_word, kEntriesPerWord, 0u) /* of candidates' lists; 0: there are none */             \
+    CONSTANT(1, bool, above_leaves, kAboveLeaves, false)     /* the children are leaves */                             \
+    CONSTANT(2, bool, packed, kPacked, false)                /* attributes are words */                                \
+    CONSTANT(3, uint, lanes, kLanes, 1u)                     /* threads that share a node, a power of two */
+GPU_KERNEL(svdag, depth_first, DepthFirst, DepthFirstParams, SVDAG_DEPTH_FIRST_CONSTANTS)
 
 struct AppendParams // push constants of svdag/append: one thread a node
 {
@@ -158,9 +158,9 @@ struct AppendParams // push constants of svdag/append: one thread a node
     uint entry_shift; // from the index of an entry to that of its copy, modulo 2^32 as the next one
     uint child_shift; // from the number of a child to that of its copy
 };
-GPU_KERNEL_BEGIN(svdag, append, Append, AppendParams)
-    GPU_CONSTANT(uint, entries_per_word, 2u)
-GPU_KERNEL_END
+#define SVDAG_APPEND_CONSTANTS(CONSTANT)                                                                               \
+    CONSTANT(0, uint, entries_per_word, kEntriesPerWord, 2u) /* of the lists that are copied */
+GPU_KERNEL(svdag, append, Append, AppendParams, SVDAG_APPEND_CONSTANTS)
 
 GPU_NAMESPACE_END
 

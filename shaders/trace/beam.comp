@@ -5,26 +5,16 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_KHR_shader_subgroup_ballot : require
 #include "trace/beam.h"
+
+GPU_ENTRY(BeamParams, TRACE_BEAM_CONSTANTS);
+layout(local_size_x = kBlockTiles) in;
+
 #define NODES_BINDING 0
 #include "lib/bound.glsl"
 #include "lib/camera.glsl"
 #include "lib/dispatch.glsl"
 #include "lib/half_node.glsl"
 #include "lib/ray.glsl"
-
-layout(constant_id = 0) const uint kNodeLevels = 5u;     // of the octree
-layout(constant_id = 1) const uint kEntriesPerWord = 0u; // of lists; 0: there are none
-layout(constant_id = 2) const uint kIterationsMax = kBeamIterationsMax;
-layout(constant_id = 3) const bool kOrthographic = false;
-layout(constant_id = 4) const bool kBeam = true;   // false: every tile lives from kTraceTimeMin on
-layout(constant_id = 5) const bool kEmpty = false; // every tile is dead
-
-layout(local_size_x = kBlockTiles) in;
-layout(push_constant, scalar) uniform Push
-{
-    BeamParams params;
-};
-
 #include "trace/beam_start.glsl"
 
 const float kTileReach = float(kTileEdge - 1u); // from the middle of a tile to its outer pixels, in half pixels

@@ -22,14 +22,14 @@ struct BeamParams // push constants of trace/beam: one thread a tile
     uint block_stride; // coprime to the number of blocks: the order in which they are taken
     vec2 detail;       // as traverse(), of the picture's rays
 };
-GPU_KERNEL_BEGIN(trace, beam, Beam, BeamParams)
-    GPU_CONSTANT(uint, node_levels, 5u)
-    GPU_CONSTANT(uint, entries_per_word, 0u)
-    GPU_CONSTANT(uint, iterations_max, kBeamIterationsMax)
-    GPU_CONSTANT(bool, orthographic, false)
-    GPU_CONSTANT(bool, beam, true)
-    GPU_CONSTANT(bool, empty, false)
-GPU_KERNEL_END
+#define TRACE_BEAM_CONSTANTS(CONSTANT)                                                                                 \
+    CONSTANT(0, uint, node_levels, kNodeLevels, 5u)          /* of the octree */                                       \
+    CONSTANT(1, uint, entries_per_word, kEntriesPerWord, 0u) /* of lists; 0: there are none */                         \
+    CONSTANT(2, uint, iterations_max, kIterationsMax, kBeamIterationsMax)                                              \
+    CONSTANT(3, bool, orthographic, kOrthographic, false)                                                              \
+    CONSTANT(4, bool, beam, kBeam, true)    /* false: every tile lives from kTraceTimeMin on */                        \
+    CONSTANT(5, bool, empty, kEmpty, false) /* every tile is dead */
+GPU_KERNEL(trace, beam, Beam, BeamParams, TRACE_BEAM_CONSTANTS)
 
 GPU_NAMESPACE_END
 

@@ -4,17 +4,13 @@
 // would give to the point where the pixel's ray enters its voxel.
 #extension GL_GOOGLE_include_directive : require
 #include "trace/trace.h"
+
+GPU_ENTRY(DepthParams, TRACE_DEPTH_CONSTANTS);
+layout(local_size_x = kTilePixels) in;
+
 #include "lib/camera.glsl"
 #include "lib/dispatch.glsl"
 #include "lib/hit.glsl"
-
-layout(constant_id = 0) const bool kOrthographic = false;
-
-layout(local_size_x = kTilePixels) in;
-layout(push_constant, scalar) uniform Push
-{
-    DepthParams params;
-};
 
 // A clip coordinate along a pixel's ray. Linear in t, so that nothing is lost to the distance of the point from the
 // origin of the world or of the grid.

@@ -4,6 +4,10 @@
 // that of the ray alone.
 #extension GL_GOOGLE_include_directive : require
 #include "trace/trace.h"
+
+GPU_ENTRY(InspectParams, TRACE_INSPECT_CONSTANTS);
+layout(local_size_x = kArgsGroup) in;
+
 #include "lib/attribute_formats.glsl"
 #include "lib/camera.glsl"
 #include "lib/dispatch.glsl"
@@ -13,15 +17,6 @@
 #include "lib/node.glsl"
 #include "lib/ray.glsl"
 #include "lib/traverse.glsl"
-
-layout(constant_id = 4) const bool kOrthographic = false;
-layout(constant_id = 5) const uint kFormat = kFormat8; // of attributes; kFormatNone where hits have no index of any
-
-layout(local_size_x = kArgsGroup) in;
-layout(push_constant, scalar) uniform Push
-{
-    InspectParams params;
-};
 
 // The node of a cell's level - 1 that it lies in.
 uint nodeAround(uvec3 cell, uint level)

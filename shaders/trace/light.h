@@ -6,7 +6,9 @@
 #include "trace/trace.h"
 
 GPU_ENUM(TexelFormat, std::uint32_t) // kTexelRgba8 and so on
-GPU_ENUM(View, std::uint32_t)        // kViewColor and so on
+#define GPU_TYPE_TexelFormat uint
+GPU_ENUM(View, std::uint32_t) // kViewColor and so on
+#define GPU_TYPE_View uint
 
 GPU_NAMESPACE_BEGIN
 
@@ -57,14 +59,14 @@ struct ShadowParams // push constants of trace/shadow
     uint width;
     uint height;
 };
-GPU_KERNEL_BEGIN(trace, shadow, Shadow, ShadowParams)
-    TRAVERSE_CONSTANTS
-    GPU_CONSTANT(bool, orthographic, false)
-    GPU_CONSTANT(AttributeFormat, format, kFormat8)
-    PATHS_CONSTANTS
-    GPU_CONSTANT(bool, resume, false)
-    GPU_CONSTANT(bool, more, false)
-GPU_KERNEL_END
+#define TRACE_SHADOW_CONSTANTS(CONSTANT)                                                                               \
+    TRAVERSE_CONSTANTS(CONSTANT)                                                                                       \
+    CONSTANT(4, bool, orthographic, kOrthographic, false)                                                              \
+    CONSTANT(5, AttributeFormat, format, kFormat, kFormat8) /* of attributes */                                        \
+    PATHS_CONSTANTS(CONSTANT, 6)                                                                                       \
+    CONSTANT(8, bool, resume, kResume, false) /* only rays that the round before left unfinished */                    \
+    CONSTANT(9, bool, more, kMore, false)     /* another round follows */
+GPU_KERNEL(trace, shadow, Shadow, ShadowParams, TRACE_SHADOW_CONSTANTS)
 
 struct OcclusionParams // push constants of trace/occlusion
 {
@@ -84,13 +86,13 @@ struct OcclusionParams // push constants of trace/occlusion
     uint ray_count;
     float radius; // unit space
 };
-GPU_KERNEL_BEGIN(trace, occlusion, Occlusion, OcclusionParams)
-    TRAVERSE_CONSTANTS
-    GPU_CONSTANT(bool, orthographic, false)
-    GPU_CONSTANT(AttributeFormat, format, kFormat8)
-    PATHS_CONSTANTS
-    GPU_CONSTANT(bool, shadows, true)
-GPU_KERNEL_END
+#define TRACE_OCCLUSION_CONSTANTS(CONSTANT)                                                                            \
+    TRAVERSE_CONSTANTS(CONSTANT)                                                                                       \
+    CONSTANT(4, bool, orthographic, kOrthographic, false)                                                              \
+    CONSTANT(5, AttributeFormat, format, kFormat, kFormat8) /* of attributes */                                        \
+    PATHS_CONSTANTS(CONSTANT, 6)                                                                                       \
+    CONSTANT(8, bool, shadows, kShadows, true) /* trace/shadow has run */
+GPU_KERNEL(trace, occlusion, Occlusion, OcclusionParams, TRACE_OCCLUSION_CONSTANTS)
 
 struct SkyParams // push constants of trace/sky: one thread kSkyRows pixels of a column
 {
@@ -104,11 +106,11 @@ struct SkyParams // push constants of trace/sky: one thread kSkyRows pixels of a
     float sun; // strength
     float exposure;
 };
-GPU_KERNEL_BEGIN(trace, sky, Sky, SkyParams)
-    GPU_CONSTANT(bool, orthographic, false)
-    GPU_CONSTANT(TexelFormat, texels, kTexelRgba8)
-    GPU_CONSTANT(bool, black, false)
-GPU_KERNEL_END
+#define TRACE_SKY_CONSTANTS(CONSTANT)                                                                                  \
+    CONSTANT(0, bool, orthographic, kOrthographic, false)                                                              \
+    CONSTANT(1, TexelFormat, texels, kTexels, kTexelRgba8)                                                             \
+    CONSTANT(2, bool, black, kBlack, false)
+GPU_KERNEL(trace, sky, Sky, SkyParams, TRACE_SKY_CONSTANTS)
 
 struct ShadeParams // push constants of trace/shade
 {
@@ -129,14 +131,14 @@ struct ShadeParams // push constants of trace/shade
     float emission_scale;
     float exposure;
 };
-GPU_KERNEL_BEGIN(trace, shade, Shade, ShadeParams)
-    GPU_CONSTANT(uint, node_levels, 5u)
-    GPU_CONSTANT(bool, orthographic, false)
-    GPU_CONSTANT(AttributeFormat, format, kFormat8)
-    GPU_CONSTANT(bool, emission, false)
-    GPU_CONSTANT(bool, light, true)
-    GPU_CONSTANT(TexelFormat, texels, kTexelRgba8)
-GPU_KERNEL_END
+#define TRACE_SHADE_CONSTANTS(CONSTANT)                                                                                \
+    CONSTANT(0, uint, node_levels, kNodeLevels, 5u)                                                                    \
+    CONSTANT(1, bool, orthographic, kOrthographic, false)                                                              \
+    CONSTANT(2, AttributeFormat, format, kFormat, kFormat8) /* of attributes */                                        \
+    CONSTANT(3, bool, emission, kEmission, false)                                                                      \
+    CONSTANT(4, bool, light, kLight, true) /* params.light was filled */                                               \
+    CONSTANT(5, TexelFormat, texels, kTexels, kTexelRgba8)
+GPU_KERNEL(trace, shade, Shade, ShadeParams, TRACE_SHADE_CONSTANTS)
 
 struct ViewsParams // push constants of trace/views
 {
@@ -155,13 +157,13 @@ struct ViewsParams // push constants of trace/views
     uint width;
     uint height;
 };
-GPU_KERNEL_BEGIN(trace, views, Views, ViewsParams)
-    GPU_CONSTANT(View, view, kViewAlbedo)
-    GPU_CONSTANT(uint, node_levels, 5u)
-    GPU_CONSTANT(bool, orthographic, false)
-    GPU_CONSTANT(AttributeFormat, format, kFormat8)
-    GPU_CONSTANT(TexelFormat, texels, kTexelRgba8)
-GPU_KERNEL_END
+#define TRACE_VIEWS_CONSTANTS(CONSTANT)                                                                                \
+    CONSTANT(0, View, view, kView, kViewAlbedo)                                                                        \
+    CONSTANT(1, uint, node_levels, kNodeLevels, 5u)                                                                    \
+    CONSTANT(2, bool, orthographic, kOrthographic, false)                                                              \
+    CONSTANT(3, AttributeFormat, format, kFormat, kFormat8) /* of attributes */                                        \
+    CONSTANT(4, TexelFormat, texels, kTexels, kTexelRgba8)
+GPU_KERNEL(trace, views, Views, ViewsParams, TRACE_VIEWS_CONSTANTS)
 
 GPU_NAMESPACE_END
 

@@ -4,17 +4,13 @@
 // (trace/node_paths.h).
 #extension GL_GOOGLE_include_directive : require
 #include "trace/node_paths.h"
+
+GPU_ENTRY(NodePathsParams, TRACE_NODE_PATHS_CONSTANTS);
+layout(local_size_x = kPathsGroup) in;
+
 #include "lib/dispatch.glsl"
 #include "lib/morton.glsl"
 #include "lib/node.glsl"
-
-layout(constant_id = 0) const uint kEntriesPerWord = 0u; // of lists; 0: there are none
-
-layout(local_size_x = kPathsGroup) in;
-layout(push_constant, scalar) uniform Push
-{
-    NodePathsParams params;
-};
 
 // The nodes of a path as rays take them; 0 for those that do not exist.
 uint64_t packPath(uint path[kPathLevels], uint before_children)

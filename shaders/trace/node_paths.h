@@ -41,9 +41,9 @@ struct NodePathsParams // push constants of trace/node_paths: one thread a cell
     GPU_CONST_PTR(Node) octree;
     GPU_PTR(uint64_t) paths; // [kPathCells^3]
 };
-GPU_KERNEL_BEGIN(trace, node_paths, NodePaths, NodePathsParams)
-    GPU_CONSTANT(uint, entries_per_word, 0u)
-GPU_KERNEL_END
+#define TRACE_NODE_PATHS_CONSTANTS(CONSTANT)                                                                           \
+    CONSTANT(0, uint, entries_per_word, kEntriesPerWord, 0u) /* of lists; 0: there are none */
+GPU_KERNEL(trace, node_paths, NodePaths, NodePathsParams, TRACE_NODE_PATHS_CONSTANTS)
 
 struct NodeRanksParams // push constants of trace/node_ranks: one thread a cell
 {
@@ -51,11 +51,11 @@ struct NodeRanksParams // push constants of trace/node_ranks: one thread a cell
     GPU_CONST_PTR(BeforeChild) overlay_ranks; // by nodes of overlays; kOverlays only
     GPU_PTR(uint64_t) paths;                  // [kRankTableOverlays + 1]
 };
-GPU_KERNEL_BEGIN(trace, node_ranks, NodeRanks, NodeRanksParams)
-    GPU_CONSTANT(bool, leaves, false)
-    GPU_CONSTANT(uint, entries_per_word, 2u)
-    GPU_CONSTANT(bool, overlays, false)
-GPU_KERNEL_END
+#define TRACE_NODE_RANKS_CONSTANTS(CONSTANT)                                                                           \
+    CONSTANT(0, bool, leaves, kLeaves, false)                /* the nodes of level kPathLevels are leaves */           \
+    CONSTANT(1, uint, entries_per_word, kEntriesPerWord, 2u) /* of lists */                                            \
+    CONSTANT(2, bool, overlays, kOverlays, false)            /* the upper nodes may be those of an overlay */
+GPU_KERNEL(trace, node_ranks, NodeRanks, NodeRanksParams, TRACE_NODE_RANKS_CONSTANTS)
 
 GPU_NAMESPACE_END
 

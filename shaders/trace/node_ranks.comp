@@ -4,20 +4,13 @@
 // written.
 #extension GL_GOOGLE_include_directive : require
 #include "trace/node_paths.h"
+
+GPU_ENTRY(NodeRanksParams, TRACE_NODE_RANKS_CONSTANTS);
+layout(local_size_x = kPathsGroup) in;
+
 #include "lib/dispatch.glsl"
 #include "lib/morton.glsl"
 #include "lib/node.glsl"
-
-layout(constant_id = 0) const bool kLeaves = false;      // the nodes of level kPathLevels are leaves
-layout(constant_id = 1) const uint kEntriesPerWord = 2u; // of lists
-layout(constant_id = 2) const bool kOverlays = false;    // the upper nodes may be those of an overlay
-
-layout(local_size_x = kPathsGroup) in;
-layout(push_constant, scalar) uniform Push
-{
-    NodeRanksParams params;
-};
-
 #include "lib/ranks.glsl"
 
 void main()

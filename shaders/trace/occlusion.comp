@@ -5,6 +5,10 @@
 // share the iterations that an invocation has; those for which none are left count as open.
 #extension GL_GOOGLE_include_directive : require
 #include "trace/light.h"
+
+GPU_ENTRY(OcclusionParams, TRACE_OCCLUSION_CONSTANTS);
+layout(local_size_x = kTilePixels) in;
+
 #define NODES_BINDING 0
 #include "lib/bound.glsl"
 #include "lib/camera.glsl"
@@ -13,18 +17,6 @@
 #include "lib/hit.glsl"
 #include "lib/ray.glsl"
 #include "lib/sampling.glsl"
-
-layout(constant_id = 4) const bool kOrthographic = false;
-layout(constant_id = 5) const uint kFormat = kFormat8; // of attributes
-layout(constant_id = 6) const bool kPaths = false; // begin below the root
-layout(constant_id = 7) const bool kPathsRelative = false; // the octree does not stand by levels
-layout(constant_id = 8) const bool kShadows = true; // trace/shadow has run
-
-layout(local_size_x = kTilePixels) in;
-layout(push_constant, scalar) uniform Push
-{
-    OcclusionParams params;
-};
 
 #define PATHS_BINDING 1
 #include "trace/lit_point.glsl"

@@ -2,7 +2,7 @@
 // Traces the rays of all pixels in live tiles, one workgroup for each tile. Rays that use up their iterations resume in
 // another round. With PRIMARY_RANKS, hits in a DAG get the ranks that are the indices of their
 // attributes (D. Dolonius, E. Sintorn, V. Kaempe, U. Assarsson, Compressing Color Data for Voxelized Surface Geometry,
-// 2017, who sum up during the traversal; here only the path of the hit is summed up).
+// 2017, who sum up during the traversal; here only the path of the hit is summed up). Needs GPU_ENTRY.
 #ifndef ZVO_SHADERS_TRACE_PRIMARY_GLSL
 #define ZVO_SHADERS_TRACE_PRIMARY_GLSL
 
@@ -12,23 +12,7 @@
 #include "lib/hit.glsl"
 #include "lib/ray.glsl"
 
-layout(constant_id = 4) const bool kOrthographic = false;
-layout(constant_id = 5) const bool kCountIterations = false;
-layout(constant_id = 6) const bool kPaths = false; // begin below the root
-layout(constant_id = 7) const bool kPathsRelative = false; // the octree does not stand by levels
-layout(constant_id = 8) const bool kOverlays = false;  // the upper nodes of a DAG may be those of an overlay
-layout(constant_id = 9) const bool kResume = false; // only rays that the round before left unfinished
-layout(constant_id = 10) const bool kMore = false;     // another round follows
-
 layout(local_size_x = kTilePixels) in;
-layout(push_constant, scalar) uniform Push
-{
-#ifdef PRIMARY_RANKS
-    PrimaryRanksParams params;
-#else
-    PrimaryParams params;
-#endif
-};
 
 #ifdef PRIMARY_RANKS
 #define TRAVERSE_ENTRIES

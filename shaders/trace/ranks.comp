@@ -6,23 +6,13 @@
 // live tile.
 #extension GL_GOOGLE_include_directive : require
 #include "trace/trace.h"
+
+GPU_ENTRY(RanksParams, TRACE_RANKS_CONSTANTS);
+layout(local_size_x = kTilePixels) in;
+
 #include "lib/camera.glsl"
 #include "lib/dispatch.glsl"
 #include "lib/hit.glsl"
-
-layout(constant_id = 0) const uint kNodeLevels = 5u;  // at least 2
-layout(constant_id = 1) const bool kDetail = false;   // hits may be nodes
-layout(constant_id = 2) const bool kTiles = true;     // of a picture
-layout(constant_id = 3) const uint kEntriesPerWord = 2u; // of lists
-layout(constant_id = 4) const bool kOverlays = false; // the upper nodes may be those of an overlay
-layout(constant_id = 5) const bool kCounted = false;  // the device knows how many hits the list has
-
-layout(local_size_x = kTilePixels) in;
-layout(push_constant, scalar) uniform Push
-{
-    RanksParams params;
-};
-
 #include "trace/hit_rank.glsl"
 
 void main()

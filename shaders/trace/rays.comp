@@ -3,6 +3,10 @@
 // Traces a list of rays. Those that use up their iterations resume in another round.
 #extension GL_GOOGLE_include_directive : require
 #include "trace/trace.h"
+
+GPU_ENTRY(RaysParams, TRACE_RAYS_CONSTANTS);
+layout(local_size_x = kRaysGroup) in;
+
 #define NODES_BINDING 0
 #include "lib/bound.glsl"
 #include "lib/dispatch.glsl"
@@ -11,16 +15,6 @@
 #include "lib/ray.glsl"
 #include "lib/traverse.glsl"
 #include "trace/rounds.glsl"
-
-layout(constant_id = 4) const bool kResume = false; // only rays that the round before left unfinished
-layout(constant_id = 5) const bool kMore = false;     // another round follows
-layout(constant_id = 6) const bool kCounted = false;  // the device knows how many rays there are
-
-layout(local_size_x = kRaysGroup) in;
-layout(push_constant, scalar) uniform Push
-{
-    RaysParams params;
-};
 
 void main()
 {

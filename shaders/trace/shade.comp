@@ -4,26 +4,16 @@
 // emission. Pixels without a hit keep what trace/sky has written.
 #extension GL_GOOGLE_include_directive : require
 #include "trace/light.h"
+
+GPU_ENTRY(ShadeParams, TRACE_SHADE_CONSTANTS);
+layout(local_size_x = kTilePixels) in;
+
 #include "lib/camera.glsl"
 #include "lib/color.glsl"
 #include "lib/dispatch.glsl"
 #include "lib/hit.glsl"
 #include "lib/sky.glsl"
 #include "trace/texel.glsl"
-
-layout(constant_id = 0) const uint kNodeLevels = 5u;
-layout(constant_id = 1) const bool kOrthographic = false;
-layout(constant_id = 2) const uint kFormat = kFormat8; // of attributes
-layout(constant_id = 3) const bool kEmission = false;
-layout(constant_id = 4) const bool kLight = true; // params.light was filled
-layout(constant_id = 5) const uint kTexels = kTexelRgba8;
-
-layout(local_size_x = kTilePixels) in;
-layout(push_constant, scalar) uniform Push
-{
-    ShadeParams params;
-};
-
 #include "trace/surface.glsl"
 
 const float kBounced = 0.12; // part of the sky's light that other surfaces reflect even into closed corners

@@ -4,6 +4,10 @@
 // in another round. Until then, light holds the time of the last event, which is greater than any light.
 #extension GL_GOOGLE_include_directive : require
 #include "trace/light.h"
+
+GPU_ENTRY(ShadowParams, TRACE_SHADOW_CONSTANTS);
+layout(local_size_x = kTilePixels) in;
+
 #define NODES_BINDING 0
 #include "lib/bound.glsl"
 #include "lib/camera.glsl"
@@ -12,19 +16,6 @@
 #include "lib/hit.glsl"
 #include "lib/ray.glsl"
 #include "trace/rounds.glsl"
-
-layout(constant_id = 4) const bool kOrthographic = false;
-layout(constant_id = 5) const uint kFormat = kFormat8; // of attributes
-layout(constant_id = 6) const bool kPaths = false; // begin below the root
-layout(constant_id = 7) const bool kPathsRelative = false; // the octree does not stand by levels
-layout(constant_id = 8) const bool kResume = false; // only rays that the round before left unfinished
-layout(constant_id = 9) const bool kMore = false;     // another round follows
-
-layout(local_size_x = kTilePixels) in;
-layout(push_constant, scalar) uniform Push
-{
-    ShadowParams params;
-};
 
 #define PATHS_BINDING 1
 #include "trace/lit_point.glsl"

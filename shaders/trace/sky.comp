@@ -3,20 +3,14 @@
 // Fills a picture with the sky alone, or with black.
 #extension GL_GOOGLE_include_directive : require
 #include "trace/light.h"
+
+GPU_ENTRY(SkyParams, TRACE_SKY_CONSTANTS);
+layout(local_size_x = kSkyGroup) in;
+
 #include "lib/camera.glsl"
 #include "lib/dispatch.glsl"
 #include "lib/sky.glsl"
 #include "trace/texel.glsl"
-
-layout(constant_id = 0) const bool kOrthographic = false;
-layout(constant_id = 1) const uint kTexels = kTexelRgba8;
-layout(constant_id = 2) const bool kBlack = false;
-
-layout(local_size_x = kSkyGroup) in;
-layout(push_constant, scalar) uniform Push
-{
-    SkyParams params;
-};
 
 const float kSunDisc = 4.0; // radiance of the sun's disc by its strength
 

@@ -9,6 +9,7 @@
 #include "shared/trace.h"
 
 GPU_ENUM(AttributeFormat, std::uint32_t) // kFormat8 and so on (shared/attribute_formats.h)
+#define GPU_TYPE_AttributeFormat uint
 
 GPU_NAMESPACE_BEGIN
 
@@ -24,25 +25,25 @@ const uint kNoTile = ~0u;              // in the list of live tiles, after the l
 const float kTileDead = kTraceTimeMax; // a tile's start where no ray of the tile can hit anything
 
 // The constants of every kernel with lib/traverse.glsl.
-#define TRAVERSE_CONSTANTS                                                                                             \
-    GPU_CONSTANT(uint, node_levels, 5u)                                                                                \
-    GPU_CONSTANT(bool, detail, false)                                                                                  \
-    GPU_CONSTANT(uint, iterations_max, kTraceIterationsMax)                                                            \
-    GPU_CONSTANT(uint, entries_per_word, 0u)
+#define TRAVERSE_CONSTANTS(CONSTANT)                                                                                   \
+    CONSTANT(0, uint, node_levels, kNodeLevels, 5u)                                                                    \
+    CONSTANT(1, bool, detail, kDetail, false)                                                                          \
+    CONSTANT(2, uint, iterations_max, kIterationsMax, kTraceIterationsMax)                                             \
+    CONSTANT(3, uint, entries_per_word, kEntriesPerWord, 0u)
 
 // Of every kernel with trace/traverse_paths.glsl.
-#define PATHS_CONSTANTS                                                                                                \
-    GPU_CONSTANT(bool, paths, false)                                                                                   \
-    GPU_CONSTANT(bool, paths_relative, false)
+#define PATHS_CONSTANTS(CONSTANT, FIRST)                                                                               \
+    CONSTANT(FIRST + 0, bool, paths, kPaths, false)                  /* begin below the root */                        \
+    CONSTANT(FIRST + 1, bool, paths_relative, kPathsRelative, false) /* the octree does not stand by levels */
 
 // Of every kernel with trace/primary.glsl, behind TRAVERSE_CONSTANTS.
-#define PRIMARY_CONSTANTS                                                                                              \
-    GPU_CONSTANT(bool, orthographic, false)                                                                            \
-    GPU_CONSTANT(bool, count_iterations, false)                                                                        \
-    PATHS_CONSTANTS                                                                                                    \
-    GPU_CONSTANT(bool, overlays, false)                                                                                \
-    GPU_CONSTANT(bool, resume, false)                                                                                  \
-    GPU_CONSTANT(bool, more, false)
+#define PRIMARY_CONSTANTS(CONSTANT)                                                                                    \
+    CONSTANT(4, bool, orthographic, kOrthographic, false)                                                              \
+    CONSTANT(5, bool, count_iterations, kCountIterations, false)                                                       \
+    PATHS_CONSTANTS(CONSTANT, 6)                                                                                       \
+    CONSTANT(8, bool, overlays, kOverlays, false) /* the upper nodes of a DAG may be those of an overlay */            \
+    CONSTANT(9, bool, resume, kResume, false)     /* only rays that the round before left unfinished */                \
+    CONSTANT(10, bool, more, kMore, false)        /* another round follows */
 
 struct RaysParams // push constants of trace/rays
 {
@@ -55,12 +56,12 @@ struct RaysParams // push constants of trace/rays
     vec2 detail;                      // as traverse()
     uint ray_count;
 };
-GPU_KERNEL_BEGIN(trace, rays, Rays, RaysParams)
-    TRAVERSE_CONSTANTS
-    GPU_CONSTANT(bool, resume, false)
-    GPU_CONSTANT(bool, more, false)
-    GPU_CONSTANT(bool, counted, false)
-GPU_KERNEL_END
+#define TRACE_RAYS_CONSTANTS(CONSTANT)                                                                                 \
+    TRAVERSE_CONSTANTS(CONSTANT)                                                                                       \
+    CONSTANT(4, bool, resume, kResume, false)   /* only rays that the round before left unfinished */                  \
+    CONSTANT(5, bool, more, kMore, false)       /* another round follows */                                            \
+    CONSTANT(6, bool, counted, kCounted, false) /* the device knows how many rays there are */
+GPU_KERNEL(trace, rays, Rays, RaysParams, TRACE_RAYS_CONSTANTS)
 
 struct RanksParams // push constants of trace/ranks
 {
@@ -74,14 +75,14 @@ struct RanksParams // push constants of trace/ranks
     uint hit_count;        // of a list; without kTiles
     uint attribute_offset; // from an overlay's node to the index of its attributes
 };
-GPU_KERNEL_BEGIN(trace, ranks, Ranks, RanksParams)
-    GPU_CONSTANT(uint, node_levels, 5u)
-    GPU_CONSTANT(bool, detail, false)
-    GPU_CONSTANT(bool, tiles, true)
-    GPU_CONSTANT(uint, entries_per_word, 2u)
-    GPU_CONSTANT(bool, overlays, false)
-    GPU_CONSTANT(bool, counted, false)
-GPU_KERNEL_END
+#define TRACE_RANKS_CONSTANTS(CONSTANT)                                                                                \
+    CONSTANT(0, uint, node_levels, kNodeLevels, 5u)          /* at least 2 */                                          \
+    CONSTANT(1, bool, detail, kDetail, false)                /* hits may be nodes */                                   \
+    CONSTANT(2, bool, tiles, kTiles, true)                   /* of a picture */                                        \
+    CONSTANT(3, uint, entries_per_word, kEntriesPerWord, 2u) /* of lists */                                            \
+    CONSTANT(4, bool, overlays, kOverlays, false)            /* the upper nodes may be those of an overlay */          \
+    CONSTANT(5, bool, counted, kCounted, false)              /* the device knows how many hits the list has */
+GPU_KERNEL(trace, ranks, Ranks, RanksParams, TRACE_RANKS_CONSTANTS)
 
 struct PrimaryParams // push constants of trace/primary
 {
@@ -97,10 +98,10 @@ struct PrimaryParams // push constants of trace/primary
     uint height;
     vec2 detail;
 };
-GPU_KERNEL_BEGIN(trace, primary, Primary, PrimaryParams)
-    TRAVERSE_CONSTANTS
-    PRIMARY_CONSTANTS
-GPU_KERNEL_END
+#define TRACE_PRIMARY_CONSTANTS(CONSTANT)                                                                              \
+    TRAVERSE_CONSTANTS(CONSTANT)                                                                                       \
+    PRIMARY_CONSTANTS(CONSTANT)
+GPU_KERNEL(trace, primary, Primary, PrimaryParams, TRACE_PRIMARY_CONSTANTS)
 
 struct PrimaryRanksParams // push constants of trace/primary_ranks
 {
@@ -117,10 +118,10 @@ struct PrimaryRanksParams // push constants of trace/primary_ranks
     uint height;
     uint first_short_entry;
 };
-GPU_KERNEL_BEGIN(trace, primary_ranks, PrimaryRanks, PrimaryRanksParams)
-    TRAVERSE_CONSTANTS
-    PRIMARY_CONSTANTS
-GPU_KERNEL_END
+#define TRACE_PRIMARY_RANKS_CONSTANTS(CONSTANT)                                                                        \
+    TRAVERSE_CONSTANTS(CONSTANT)                                                                                       \
+    PRIMARY_CONSTANTS(CONSTANT)
+GPU_KERNEL(trace, primary_ranks, PrimaryRanks, PrimaryRanksParams, TRACE_PRIMARY_RANKS_CONSTANTS)
 
 struct DepthParams // push constants of trace/depth
 {
@@ -134,9 +135,8 @@ struct DepthParams // push constants of trace/depth
     uint width;
     uint height;
 };
-GPU_KERNEL_BEGIN(trace, depth, Depth, DepthParams)
-    GPU_CONSTANT(bool, orthographic, false)
-GPU_KERNEL_END
+#define TRACE_DEPTH_CONSTANTS(CONSTANT) CONSTANT(0, bool, orthographic, kOrthographic, false)
+GPU_KERNEL(trace, depth, Depth, DepthParams, TRACE_DEPTH_CONSTANTS)
 
 /// What the ray of one pixel meets.
 struct PixelReport
@@ -166,11 +166,12 @@ struct InspectParams // push constants of trace/inspect: kArgsGroup threads, of 
     uint pixel; // row by row
     vec2 detail;
 };
-GPU_KERNEL_BEGIN(trace, inspect, Inspect, InspectParams)
-    TRAVERSE_CONSTANTS
-    GPU_CONSTANT(bool, orthographic, false)
-    GPU_CONSTANT(AttributeFormat, format, kFormat8)
-GPU_KERNEL_END
+#define TRACE_INSPECT_CONSTANTS(CONSTANT)                                                                              \
+    TRAVERSE_CONSTANTS(CONSTANT)                                                                                       \
+    CONSTANT(4, bool, orthographic, kOrthographic, false)                                                              \
+    CONSTANT(5, AttributeFormat, format, kFormat,                                                                      \
+             kFormat8) /* of attributes; kFormatNone where hits have no index of any */
+GPU_KERNEL(trace, inspect, Inspect, InspectParams, TRACE_INSPECT_CONSTANTS)
 
 GPU_NAMESPACE_END
 

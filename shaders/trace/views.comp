@@ -4,24 +4,15 @@
 // without a hit keep what is there, except in the heat map of iterations.
 #extension GL_GOOGLE_include_directive : require
 #include "trace/light.h"
+
+GPU_ENTRY(ViewsParams, TRACE_VIEWS_CONSTANTS);
+layout(local_size_x = kTilePixels) in;
+
 #include "lib/camera.glsl"
 #include "lib/color.glsl"
 #include "lib/dispatch.glsl"
 #include "lib/hit.glsl"
 #include "trace/texel.glsl"
-
-layout(constant_id = 0) const uint kView = kViewAlbedo;
-layout(constant_id = 1) const uint kNodeLevels = 5u;
-layout(constant_id = 2) const bool kOrthographic = false;
-layout(constant_id = 3) const uint kFormat = kFormat8; // of attributes
-layout(constant_id = 4) const uint kTexels = kTexelRgba8;
-
-layout(local_size_x = kTilePixels) in;
-layout(push_constant, scalar) uniform Push
-{
-    ViewsParams params;
-};
-
 #include "trace/surface.glsl"
 
 const float kDepthContrast = 0.9; // the farthest point is less black than the background

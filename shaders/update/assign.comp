@@ -3,15 +3,13 @@
 // Sets the child bases of every touched node of a level from the prefix sum of child counts.
 #extension GL_GOOGLE_include_directive : require
 #include "update/update.h"
+
+GPU_ENTRY(OverlayAssignParams, GPU_NO_CONSTANTS);
+layout(local_size_x = kScanGroup) in;
+
 #define SCAN_GROUP kScanGroup
 #include "lib/dispatch.glsl"
 #include "lib/scan.glsl"
-
-layout(local_size_x = kScanGroup) in;
-layout(push_constant, scalar) uniform Push
-{
-    OverlayAssignParams params;
-};
 
 void main()
 {

@@ -3,15 +3,11 @@
 // Computes the attributes of the touched nodes of a level.
 #extension GL_GOOGLE_include_directive : require
 #include "update/update.h"
-#include "lib/dispatch.glsl"
 
-layout(constant_id = 0) const uint kLanes = 1u;
-
+GPU_ENTRY(OverlayAverageParams, UPDATE_AVERAGE_CONSTANTS);
 layout(local_size_x_id = 1) in;
-layout(push_constant, scalar) uniform Push
-{
-    OverlayAverageParams params;
-};
+
+#include "lib/dispatch.glsl"
 
 #define AVERAGE_CHILDREN Attribute_ConstPtr
 #include "lib/average.glsl"

@@ -4,13 +4,11 @@
 // counted.
 #extension GL_GOOGLE_include_directive : require
 #include "update/update.h"
-#include "lib/dispatch.glsl"
 
+GPU_ENTRY(EmissionPlacesParams, GPU_NO_CONSTANTS);
 layout(local_size_x = kUpdateGroup) in;
-layout(push_constant, scalar) uniform Push
-{
-    EmissionPlacesParams params;
-};
+
+#include "lib/dispatch.glsl"
 
 void main()
 {

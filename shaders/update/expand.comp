@@ -4,22 +4,15 @@
 // exclusive prefix sum, and the next level has its size.
 #extension GL_GOOGLE_include_directive : require
 #include "update/update.h"
+
+GPU_ENTRY(ExpandParams, UPDATE_EXPAND_CONSTANTS);
+layout(local_size_x = kUpdateGroup) in;
+
 #include "lib/arrivals.glsl"
 #include "lib/dispatch.glsl"
 #extension GL_KHR_shader_subgroup_arithmetic : require
 
-layout(constant_id = 0) const bool kWideKeys = false; // the octree has more than kNarrowLevelsMax levels
-layout(constant_id = 1) const bool kAttributes = false;
-layout(constant_id = 2) const uint kEntriesPerWord = 0u; // of the lists of a DAG, as base tree; 0: it is an octree
-layout(constant_id = 3) const bool kLeaves = false; // the children are leaves, of a DAG
-
 const bool kRanks = kEntriesPerWord != 0u && kAttributes;
-
-layout(local_size_x = kUpdateGroup) in;
-layout(push_constant, scalar) uniform Push
-{
-    ExpandParams params;
-};
 
 #include "update/expand.glsl"
 

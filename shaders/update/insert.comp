@@ -5,18 +5,13 @@
 // parent, too, and so on up: the table has all touched nodes then, and each level a list of its own.
 #extension GL_GOOGLE_include_directive : require
 #include "update/update.h"
+
+GPU_ENTRY(InsertParams, UPDATE_INSERT_CONSTANTS);
+layout(local_size_x = kUpdateGroup) in;
+
 #include "lib/arrivals.glsl"
 #include "lib/dispatch.glsl"
 #include "octree/nodes.glsl"
-
-layout(constant_id = 0) const bool kWideKeys = false; // the octree has more than kNarrowLevelsMax levels
-
-layout(local_size_x = kUpdateGroup) in;
-layout(push_constant, scalar) uniform Push
-{
-    InsertParams params;
-};
-
 #include "lib/brick_keys.glsl"
 #include "lib/bricks.glsl"
 

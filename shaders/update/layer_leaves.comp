@@ -5,17 +5,12 @@
 // layer cannot be used then. In the end it is known whether there was room for everything.
 #extension GL_GOOGLE_include_directive : require
 #include "update/update.h"
+
+GPU_ENTRY(LayerLeavesParams, UPDATE_LAYER_LEAVES_CONSTANTS);
+layout(local_size_x = kCollectGroup) in;
+
 #include "lib/arrivals.glsl"
 #include "lib/dispatch.glsl"
-
-layout(constant_id = 0) const bool kWideKeys = false; // the octree has more than kNarrowLevelsMax levels
-
-layout(local_size_x = kCollectGroup) in;
-layout(push_constant, scalar) uniform Push
-{
-    LayerLeavesParams params;
-};
-
 #include "lib/brick_keys.glsl"
 #include "octree/found_bricks.glsl"
 

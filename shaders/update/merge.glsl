@@ -9,14 +9,7 @@
 #include "lib/node.glsl"
 #include "update/update.h"
 
-layout(constant_id = 0) const uint kMerge = kMergeAverage;
-layout(constant_id = 1) const bool kEmits = false;
-layout(constant_id = 2) const bool kRanks = false; // the base tree is a DAG
-
-layout(push_constant, scalar) uniform Push
-{
-    MergeParams params;
-};
+GPU_ENTRY(MergeParams, MERGE_CONSTANTS);
 
 const uint kNoVoxel = ~0u;
 

@@ -4,13 +4,8 @@
 #extension GL_GOOGLE_include_directive : require
 #include "update/update.h"
 
-layout(constant_id = 0) const bool kAttributes = false;
-
+GPU_ENTRY(ShowParams, UPDATE_SHOW_CONSTANTS);
 layout(local_size_x = kArgsGroup) in;
-layout(push_constant, scalar) uniform Push
-{
-    ShowParams params;
-};
 
 void main()
 {

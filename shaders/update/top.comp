@@ -5,20 +5,14 @@
 // touched nodes found no room, there is no overlay.
 #extension GL_GOOGLE_include_directive : require
 #include "update/update.h"
+
+GPU_ENTRY(TopParams, UPDATE_TOP_CONSTANTS);
+layout(local_size_x = kRootGroup) in;
+
 #define SCAN_GROUP kRootGroup
 #include "lib/scan.glsl"
 
-layout(constant_id = 0) const bool kWideKeys = false; // the octree has more than kNarrowLevelsMax levels
-layout(constant_id = 1) const bool kAttributes = false;
-layout(constant_id = 2) const uint kEntriesPerWord = 0u; // of the lists of a DAG, as base tree; 0: it is an octree
-
 const bool kRanks = kEntriesPerWord != 0u && kAttributes;
-
-layout(local_size_x = kRootGroup) in;
-layout(push_constant, scalar) uniform Push
-{
-    TopParams params;
-};
 
 #include "update/expand.glsl"
 

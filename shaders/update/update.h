@@ -30,6 +30,7 @@
 #include "voxelize/voxelize.h"
 
 GPU_ENUM(MergeRule, std::uint32_t) // kMergeAverage and so on
+#define GPU_TYPE_MergeRule uint
 
 GPU_NAMESPACE_BEGIN
 
@@ -155,9 +156,9 @@ struct LayerLeavesParams // push constants of update/layer_leaves
     uint block_capacity;
     uint report; // element of reports
 };
-GPU_KERNEL_BEGIN(update, layer_leaves, LayerLeaves, LayerLeavesParams)
-    GPU_CONSTANT(bool, wide_keys, false)
-GPU_KERNEL_END
+#define UPDATE_LAYER_LEAVES_CONSTANTS(CONSTANT)                                                                        \
+    CONSTANT(0, bool, wide_keys, kWideKeys, false) /* the octree has more than kNarrowLevelsMax levels */
+GPU_KERNEL(update, layer_leaves, LayerLeaves, LayerLeavesParams, UPDATE_LAYER_LEAVES_CONSTANTS)
 
 struct EmissionPlacesParams // push constants of update/emission_places
 {
@@ -166,7 +167,7 @@ struct EmissionPlacesParams // push constants of update/emission_places
     uint word_count;
     uint first_index; // of the first word's voxels
 };
-GPU_KERNEL(update, emission_places, EmissionPlaces, EmissionPlacesParams)
+GPU_KERNEL(update, emission_places, EmissionPlaces, EmissionPlacesParams, GPU_NO_CONSTANTS)
 
 struct InsertParams // push constants of update/insert: one thread a record
 {
@@ -185,9 +186,9 @@ struct InsertParams // push constants of update/insert: one thread a record
     uint level_count;
     uint max_groups_x;
 };
-GPU_KERNEL_BEGIN(update, insert, Insert, InsertParams)
-    GPU_CONSTANT(bool, wide_keys, false)
-GPU_KERNEL_END
+#define UPDATE_INSERT_CONSTANTS(CONSTANT)                                                                              \
+    CONSTANT(0, bool, wide_keys, kWideKeys, false) /* the octree has more than kNarrowLevelsMax levels */
+GPU_KERNEL(update, insert, Insert, InsertParams, UPDATE_INSERT_CONSTANTS)
 
 struct TopParams // push constants of update/top: one workgroup
 {
@@ -211,11 +212,12 @@ struct TopParams // push constants of update/top: one workgroup
     uint first_short_entry; // as in RankSource
     uint static_root;
 };
-GPU_KERNEL_BEGIN(update, top, Top, TopParams)
-    GPU_CONSTANT(bool, wide_keys, false)
-    GPU_CONSTANT(bool, attributes, false)
-    GPU_CONSTANT(uint, entries_per_word, 0u)
-GPU_KERNEL_END
+#define UPDATE_TOP_CONSTANTS(CONSTANT)                                                                                 \
+    CONSTANT(0, bool, wide_keys, kWideKeys, false) /* the octree has more than kNarrowLevelsMax levels */              \
+    CONSTANT(1, bool, attributes, kAttributes, false)                                                                  \
+    CONSTANT(2, uint, entries_per_word, kEntriesPerWord,                                                               \
+             0u) /* of the lists of a DAG, as base tree; 0: it is an octree */
+GPU_KERNEL(update, top, Top, TopParams, UPDATE_TOP_CONSTANTS)
 
 struct ExpandParams // push constants of update/expand: a workgroup for each touched node of the level above
 {
@@ -239,12 +241,13 @@ struct ExpandParams // push constants of update/expand: a workgroup for each tou
     uint first_short_entry; // as in RankSource
     uint static_root;
 };
-GPU_KERNEL_BEGIN(update, expand, Expand, ExpandParams)
-    GPU_CONSTANT(bool, wide_keys, false)
-    GPU_CONSTANT(bool, attributes, false)
-    GPU_CONSTANT(uint, entries_per_word, 0u)
-    GPU_CONSTANT(bool, leaves, false)
-GPU_KERNEL_END
+#define UPDATE_EXPAND_CONSTANTS(CONSTANT)                                                                              \
+    CONSTANT(0, bool, wide_keys, kWideKeys, false) /* the octree has more than kNarrowLevelsMax levels */              \
+    CONSTANT(1, bool, attributes, kAttributes, false)                                                                  \
+    CONSTANT(2, uint, entries_per_word, kEntriesPerWord,                                                               \
+             0u)                              /* of the lists of a DAG, as base tree; 0: it is an octree */            \
+    CONSTANT(3, bool, leaves, kLeaves, false) /* the children are leaves, of a DAG */
+GPU_KERNEL(update, expand, Expand, ExpandParams, UPDATE_EXPAND_CONSTANTS)
 
 struct OverlayAssignParams // push constants of update/assign
 {
@@ -257,7 +260,7 @@ struct OverlayAssignParams // push constants of update/assign
     uint first_voxel;
     uint first_partial;
 };
-GPU_KERNEL(update, assign, Assign, OverlayAssignParams)
+GPU_KERNEL(update, assign, Assign, OverlayAssignParams, GPU_NO_CONSTANTS)
 
 /// The tables and sums that merging reads.
 struct MergeView
@@ -271,10 +274,10 @@ struct MergeView
 GPU_BUFFER(MergeView, 8);
 
 // The constants of every kernel with update/merge.glsl.
-#define MERGE_CONSTANTS                                                                                                \
-    GPU_CONSTANT(MergeRule, merge, kMergeAverage)                                                                      \
-    GPU_CONSTANT(bool, emits, false)                                                                                   \
-    GPU_CONSTANT(bool, ranks, false)
+#define MERGE_CONSTANTS(CONSTANT)                                                                                      \
+    CONSTANT(0, MergeRule, merge, kMerge, kMergeAverage)                                                               \
+    CONSTANT(1, bool, emits, kEmits, false)                                                                            \
+    CONSTANT(2, bool, ranks, kRanks, false) /* the base tree is a DAG */
 
 struct MergeParams // push constants of update/merge and update/merge_emission
 {
@@ -293,12 +296,8 @@ struct MergeParams // push constants of update/merge and update/merge_emission
     GPU_PTR(OverlayState) state;
     uint sum_shift;
 };
-GPU_KERNEL_BEGIN(update, merge, Merge, MergeParams)
-    MERGE_CONSTANTS
-GPU_KERNEL_END
-GPU_KERNEL_BEGIN(update, merge_emission, MergeEmission, MergeParams)
-    MERGE_CONSTANTS
-GPU_KERNEL_END
+GPU_KERNEL(update, merge, Merge, MergeParams, MERGE_CONSTANTS)
+GPU_KERNEL(update, merge_emission, MergeEmission, MergeParams, MERGE_CONSTANTS)
 
 struct OverlayAverageParams // push constants of update/average: kLanes threads a touched node
 {
@@ -314,10 +313,10 @@ struct OverlayAverageParams // push constants of update/average: kLanes threads 
     uint children_offset;  // from a node's base to children
     uint attribute_offset; // from a node to averages
 };
-GPU_KERNEL_BEGIN(update, average, Average, OverlayAverageParams)
-    GPU_CONSTANT(uint, lanes, 1u)
-    GPU_CONSTANT(uint, local_size_x, 1u) // kNodesGroup * lanes
-GPU_KERNEL_END
+#define UPDATE_AVERAGE_CONSTANTS(CONSTANT)                                                                             \
+    CONSTANT(0, uint, lanes, kLanes, 1u)                                                                               \
+    CONSTANT(1, uint, local_size_x, kLocalSizeX, 1u) /* kNodesGroup * lanes */
+GPU_KERNEL(update, average, Average, OverlayAverageParams, UPDATE_AVERAGE_CONSTANTS)
 
 struct OverlayAverageTopParams // push constants of update/average_top: one workgroup
 {
@@ -333,10 +332,10 @@ struct OverlayAverageTopParams // push constants of update/average_top: one work
     uint lowest_offset;    // from a child's number to lowest_children
     uint attribute_offset; // from a node to averages
 };
-GPU_KERNEL_BEGIN(update, average_top, AverageTop, OverlayAverageTopParams)
-    GPU_CONSTANT(uint, lanes, 1u)
-    GPU_CONSTANT(uint, local_size_x, 1u)
-GPU_KERNEL_END
+#define UPDATE_AVERAGE_TOP_CONSTANTS(CONSTANT)                                                                         \
+    CONSTANT(0, uint, lanes, kLanes, 1u)                                                                               \
+    CONSTANT(1, uint, local_size_x, kLocalSizeX, 1u)
+GPU_KERNEL(update, average_top, AverageTop, OverlayAverageTopParams, UPDATE_AVERAGE_TOP_CONSTANTS)
 
 struct FinishParams // push constants of update/finish
 {
@@ -353,9 +352,8 @@ struct FinishParams // push constants of update/finish
     uint sum_shift; // of the layers
     uint attribute_offset;
 };
-GPU_KERNEL_BEGIN(update, finish, Finish, FinishParams)
-    GPU_CONSTANT(bool, attributes, false)
-GPU_KERNEL_END
+#define UPDATE_FINISH_CONSTANTS(CONSTANT) CONSTANT(0, bool, attributes, kAttributes, false)
+GPU_KERNEL(update, finish, Finish, FinishParams, UPDATE_FINISH_CONSTANTS)
 
 struct ShowParams // push constants of update/show
 {
@@ -366,9 +364,8 @@ struct ShowParams // push constants of update/show
     uint slot;
     uint attribute_offset;
 };
-GPU_KERNEL_BEGIN(update, show, Show, ShowParams)
-    GPU_CONSTANT(bool, attributes, false)
-GPU_KERNEL_END
+#define UPDATE_SHOW_CONSTANTS(CONSTANT) CONSTANT(0, bool, attributes, kAttributes, false)
+GPU_KERNEL(update, show, Show, ShowParams, UPDATE_SHOW_CONSTANTS)
 
 GPU_NAMESPACE_END
 

@@ -4,6 +4,11 @@
 // or its plane inside the grid, does not reach are left out, so the work follows the covered area and not the bounding
 // box.
 #extension GL_GOOGLE_include_directive : require
+#include "voxelize/voxelize.h"
+
+GPU_ENTRY(RasterParams, RASTER_CONSTANTS);
+layout(local_size_x = kBandsGroup) in;
+
 #include "voxelize/constants.glsl"
 #define EDGE_INT int64_t
 #define EDGE_IVEC3 i64vec3
@@ -12,8 +17,6 @@
 #include "lib/dispatch.glsl"
 #include "voxelize/big_triangle.glsl"
 #include "voxelize/raster.glsl"
-
-layout(local_size_x = kBandsGroup) in;
 
 void listBlocks(uint band, uint strip, uvec2 blocks)
 {

@@ -4,15 +4,13 @@
 #extension GL_GOOGLE_include_directive : require
 #include "voxelize/voxelize.h"
 #include "octree/octree.h"
+
+GPU_ENTRY(EmissionRankParams, GPU_NO_CONSTANTS);
+layout(local_size_x = kScanGroup) in;
+
 #define SCAN_GROUP kScanGroup
 #include "lib/dispatch.glsl"
 #include "lib/scan.glsl"
-
-layout(local_size_x = kScanGroup) in;
-layout(push_constant, scalar) uniform Push
-{
-    EmissionRankParams params;
-};
 
 void main()
 {

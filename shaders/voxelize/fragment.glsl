@@ -19,8 +19,6 @@
 #include "voxelize/voxelize.h"
 #include "voxelize/window.glsl"
 
-layout(constant_id = 7) const bool kMixed = false;
-
 // The leaf of this thread's last fragment, which neighbours mostly share.
 struct BrickCursor
 {

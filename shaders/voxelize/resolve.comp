@@ -3,14 +3,12 @@
 // Computes the attribute of each voxel from its sums: the mean of its fragments.
 #extension GL_GOOGLE_include_directive : require
 #include "voxelize/voxelize.h"
+
+GPU_ENTRY(ResolveParams, GPU_NO_CONSTANTS);
+layout(local_size_x = kResolveGroup) in;
+
 #include "lib/bound.glsl"
 #include "lib/dispatch.glsl"
-
-layout(local_size_x = kResolveGroup) in;
-layout(push_constant, scalar) uniform Push
-{
-    ResolveParams params;
-};
 
 #define COLOR_BINDING 0
 #define SUMS_BINDING 2

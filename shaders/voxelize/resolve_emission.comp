@@ -4,14 +4,11 @@
 // RGB9E5.
 #extension GL_GOOGLE_include_directive : require
 #include "voxelize/voxelize.h"
-#include "lib/dispatch.glsl"
 
+GPU_ENTRY(ResolveEmissionParams, GPU_NO_CONSTANTS);
 layout(local_size_x = kResolveGroup) in;
-layout(push_constant, scalar) uniform Push
-{
-    ResolveEmissionParams params;
-};
 
+#include "lib/dispatch.glsl"
 #include "voxelize/resolve.glsl"
 
 void main()

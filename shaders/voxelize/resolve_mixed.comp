@@ -4,17 +4,12 @@
 // every kLanes-th of its cells.
 #extension GL_GOOGLE_include_directive : require
 #include "voxelize/voxelize.h"
+
+GPU_ENTRY(ResolveMixedParams, VOXELIZE_RESOLVE_MIXED_CONSTANTS);
+layout(local_size_x = kResolveGroup) in;
+
 #include "lib/bound.glsl"
 #include "lib/dispatch.glsl"
-
-layout(constant_id = 0) const bool kWideKeys = false; // the octree has more than kNarrowLevelsMax levels
-layout(constant_id = 1) const uint kLanes = 1u; // threads that share a leaf, a power of two up to 16
-
-layout(local_size_x = kResolveGroup) in;
-layout(push_constant, scalar) uniform Push
-{
-    ResolveMixedParams params;
-};
 
 #define BRICKS_BINDING 3
 #define COLOR_BINDING 0

@@ -7,8 +7,6 @@
 
 #include "voxelize/constants.glsl"
 
-layout(constant_id = 6) const bool kWideKeys = false; // the octree has more than kNarrowLevelsMax levels
-
 #define BRICKS_BINDING 0
 #define COLOR_BINDING 15
 #define EDGE_INT int64_t

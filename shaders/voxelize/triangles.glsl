@@ -7,8 +7,6 @@
 
 #include "voxelize/constants.glsl"
 
-layout(constant_id = 6) const bool kWideKeys = false; // the octree has more than kNarrowLevelsMax levels
-
 #define BRICKS_BINDING 0
 #define COLOR_BINDING 15
 #define EDGE_INT int
@@ -22,8 +20,6 @@ layout(constant_id = 6) const bool kWideKeys = false; // the octree has more tha
 #include "voxelize/shading.glsl"
 #include "voxelize/vertex.glsl"
 #include "voxelize/window.glsl"
-
-layout(constant_id = 8) const bool kSingle = false; // a chunk is one triangle, and a thread takes it
 
 layout(local_size_x = kChunkTriangles) in;
 

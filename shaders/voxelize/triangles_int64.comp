@@ -4,5 +4,9 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_shader_atomic_int64 : require
 #define INT64_ATOMICS
+#include "voxelize/voxelize.h"
+
+GPU_ENTRY(RasterParams, VOXELIZE_TRIANGLES_CONSTANTS);
+
 #include "lib/bound.glsl"
 #include "voxelize/triangles.glsl"

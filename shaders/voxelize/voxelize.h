@@ -7,9 +7,12 @@
 #include "shared/octree.h"
 #include "shared/scene.h"
 
-GPU_ENUM(Coverage, int)                // kCoverageConservative, kCoverageThin
+GPU_ENUM(Coverage, int) // kCoverageConservative, kCoverageThin
+#define GPU_TYPE_Coverage uint
 GPU_ENUM(MaterialClass, std::uint32_t) // kClassPlain and so on
-GPU_ENUM(RasterMode, std::uint32_t)    // kModeCoverage and so on
+#define GPU_TYPE_MaterialClass uint
+GPU_ENUM(RasterMode, std::uint32_t) // kModeCoverage and so on
+#define GPU_TYPE_RasterMode uint
 
 GPU_NAMESPACE_BEGIN
 
@@ -127,13 +130,13 @@ struct RasterCounters
 GPU_BUFFER(RasterCounters, 4);
 
 // Of every kernel with voxelize/constants.glsl.
-#define RASTER_CONSTANTS                                                                                               \
-    GPU_CONSTANT(Coverage, coverage, kCoverageConservative)                                                            \
-    GPU_CONSTANT(RasterMode, mode, kModeCoverage)                                                                      \
-    GPU_CONSTANT(MaterialClass, material_class, kClassPlain)                                                           \
-    GPU_CONSTANT(bool, emits, false)                                                                                   \
-    GPU_CONSTANT(uint, block_columns, 256u)                                                                            \
-    GPU_CONSTANT(uint, strip_lanes, 1u)
+#define RASTER_CONSTANTS(CONSTANT)                                                                                     \
+    CONSTANT(0, Coverage, coverage, kCoverage, kCoverageConservative)                                                  \
+    CONSTANT(1, RasterMode, mode, kMode, kModeCoverage)                                                                \
+    CONSTANT(2, MaterialClass, material_class, kMaterialClass, kClassPlain)                                            \
+    CONSTANT(3, bool, emits, kEmits, false)                                                                            \
+    CONSTANT(4, uint, block_columns, kBlockColumns, 256u) /* of a row block: bounds the work of a thread */            \
+    CONSTANT(5, uint, strip_lanes, kStripLanes, 1u)       /* threads of voxelize/bands that share a band */
 
 struct RasterParams // push constants of voxelize/triangles and voxelize/rows
 {
@@ -157,31 +160,20 @@ struct RasterParams // push constants of voxelize/triangles and voxelize/rows
     uint block_capacity;
     uint sum_shift; // bits dropped from values before they are added
 };
-GPU_KERNEL_BEGIN(voxelize, bands, Bands, RasterParams)
-    RASTER_CONSTANTS
-GPU_KERNEL_END
-GPU_KERNEL_BEGIN(voxelize, rows, Rows, RasterParams)
-    RASTER_CONSTANTS
-    GPU_CONSTANT(bool, wide_keys, false)
-    GPU_CONSTANT(bool, mixed, false)
-GPU_KERNEL_END
-GPU_KERNEL_BEGIN(voxelize, rows_int64, RowsInt64, RasterParams)
-    RASTER_CONSTANTS
-    GPU_CONSTANT(bool, wide_keys, false)
-    GPU_CONSTANT(bool, mixed, false)
-GPU_KERNEL_END
-GPU_KERNEL_BEGIN(voxelize, triangles, Triangles, RasterParams)
-    RASTER_CONSTANTS
-    GPU_CONSTANT(bool, wide_keys, false)
-    GPU_CONSTANT(bool, mixed, false)
-    GPU_CONSTANT(bool, single, false)
-GPU_KERNEL_END
-GPU_KERNEL_BEGIN(voxelize, triangles_int64, TrianglesInt64, RasterParams)
-    RASTER_CONSTANTS
-    GPU_CONSTANT(bool, wide_keys, false)
-    GPU_CONSTANT(bool, mixed, false)
-    GPU_CONSTANT(bool, single, false)
-GPU_KERNEL_END
+GPU_KERNEL(voxelize, bands, Bands, RasterParams, RASTER_CONSTANTS)
+#define VOXELIZE_ROWS_CONSTANTS(CONSTANT)                                                                              \
+    RASTER_CONSTANTS(CONSTANT)                                                                                         \
+    CONSTANT(6, bool, wide_keys, kWideKeys, false) /* the octree has more than kNarrowLevelsMax levels */              \
+    CONSTANT(7, bool, mixed, kMixed, false)
+GPU_KERNEL(voxelize, rows, Rows, RasterParams, VOXELIZE_ROWS_CONSTANTS)
+GPU_KERNEL(voxelize, rows_int64, RowsInt64, RasterParams, VOXELIZE_ROWS_CONSTANTS)
+#define VOXELIZE_TRIANGLES_CONSTANTS(CONSTANT)                                                                         \
+    RASTER_CONSTANTS(CONSTANT)                                                                                         \
+    CONSTANT(6, bool, wide_keys, kWideKeys, false) /* the octree has more than kNarrowLevelsMax levels */              \
+    CONSTANT(7, bool, mixed, kMixed, false)                                                                            \
+    CONSTANT(8, bool, single, kSingle, false) /* a chunk is one triangle, and a thread takes it */
+GPU_KERNEL(voxelize, triangles, Triangles, RasterParams, VOXELIZE_TRIANGLES_CONSTANTS)
+GPU_KERNEL(voxelize, triangles_int64, TrianglesInt64, RasterParams, VOXELIZE_TRIANGLES_CONSTANTS)
 
 struct ResolveParams // push constants of voxelize/resolve
 {
@@ -194,7 +186,7 @@ struct ResolveParams // push constants of voxelize/resolve
     uint has_emission;
     uint sum_shift;
 };
-GPU_KERNEL(voxelize, resolve, Resolve, ResolveParams)
+GPU_KERNEL(voxelize, resolve, Resolve, ResolveParams, GPU_NO_CONSTANTS)
 
 struct ResolveMixedParams // push constants of voxelize/resolve_mixed: kLanes threads a leaf
 {
@@ -209,10 +201,10 @@ struct ResolveMixedParams // push constants of voxelize/resolve_mixed: kLanes th
     uint leaf_count;
     uint sum_shift;
 };
-GPU_KERNEL_BEGIN(voxelize, resolve_mixed, ResolveMixed, ResolveMixedParams)
-    GPU_CONSTANT(bool, wide_keys, false)
-    GPU_CONSTANT(uint, lanes, 1u)
-GPU_KERNEL_END
+#define VOXELIZE_RESOLVE_MIXED_CONSTANTS(CONSTANT)                                                                     \
+    CONSTANT(0, bool, wide_keys, kWideKeys, false) /* the octree has more than kNarrowLevelsMax levels */              \
+    CONSTANT(1, uint, lanes, kLanes, 1u)           /* threads that share a leaf, a power of two up to 16 */
+GPU_KERNEL(voxelize, resolve_mixed, ResolveMixed, ResolveMixedParams, VOXELIZE_RESOLVE_MIXED_CONSTANTS)
 
 struct EmissionRankParams // push constants of voxelize/emission_count and voxelize/emission_rank
 {
@@ -220,8 +212,8 @@ struct EmissionRankParams // push constants of voxelize/emission_count and voxel
     GPU_PTR(uint) partials; // [ceil(word_count / kScanBlock)]
     uint word_count;
 };
-GPU_KERNEL(voxelize, emission_count, EmissionCount, EmissionRankParams)
-GPU_KERNEL(voxelize, emission_rank, EmissionRank, EmissionRankParams)
+GPU_KERNEL(voxelize, emission_count, EmissionCount, EmissionRankParams, GPU_NO_CONSTANTS)
+GPU_KERNEL(voxelize, emission_rank, EmissionRank, EmissionRankParams, GPU_NO_CONSTANTS)
 
 struct ResolveEmissionParams // push constants of voxelize/resolve_emission
 {
@@ -232,7 +224,7 @@ struct ResolveEmissionParams // push constants of voxelize/resolve_emission
     uint voxel_count;
     uint sum_shift;
 };
-GPU_KERNEL(voxelize, resolve_emission, ResolveEmission, ResolveEmissionParams)
+GPU_KERNEL(voxelize, resolve_emission, ResolveEmission, ResolveEmissionParams, GPU_NO_CONSTANTS)
 
 GPU_NAMESPACE_END
 

@@ -29,27 +29,24 @@ void sortByDigit(vk::FrameGraph& graph, RadixSortBuffers& buffers, std::uint64_t
     const std::uint64_t block_count = divideUp(count, gpu::kSortBlock);
     {
         vk::Pass pass = graph.addPass(gpu::baseline::SortCount{});
-        gpu::SortCountParams params{};
-        params.keys = pass.read(buffers.keys[from]);
-        params.counts = pass.write(buffers.counts);
-        params.key_count = static_cast<std::uint32_t>(count);
-        params.block_count = static_cast<std::uint32_t>(block_count);
-        params.shift = shift;
-        pass.dispatch(block_count * gpu::kSortGroup, params);
+        pass.dispatch(block_count * gpu::kSortGroup, {.keys = pass.read(buffers.keys[from]),
+                                                      .counts = pass.write(buffers.counts),
+                                                      .key_count = static_cast<std::uint32_t>(count),
+                                                      .block_count = static_cast<std::uint32_t>(block_count),
+                                                      .shift = shift});
     }
     scanValues(graph, buffers.counts, countsOf(count), buffers.partials, totalAt(buffers.total));
     const bool is_first = shift == 0;
     vk::Pass pass = graph.addPass(gpu::baseline::SortScatter{.first = is_first});
-    gpu::SortScatterParams params{};
-    params.keys = pass.read(buffers.keys[from]);
-    params.indices = is_first ? gpu::ConstPtr<gpu::uint>{} : pass.read(buffers.indices[from]);
-    params.sorted_keys = pass.write(buffers.keys[1 - from]);
-    params.sorted_indices = pass.write(buffers.indices[1 - from]);
-    params.first_places = pass.read(buffers.counts);
-    params.key_count = static_cast<std::uint32_t>(count);
-    params.block_count = static_cast<std::uint32_t>(block_count);
-    params.shift = shift;
-    pass.dispatch(block_count * gpu::kSortGroup, params);
+    pass.dispatch(block_count * gpu::kSortGroup,
+                  {.keys = pass.read(buffers.keys[from]),
+                   .indices = is_first ? gpu::ConstPtr<gpu::uint>{} : pass.read(buffers.indices[from]),
+                   .sorted_keys = pass.write(buffers.keys[1 - from]),
+                   .sorted_indices = pass.write(buffers.indices[1 - from]),
+                   .first_places = pass.read(buffers.counts),
+                   .key_count = static_cast<std::uint32_t>(count),
+                   .block_count = static_cast<std::uint32_t>(block_count),
+                   .shift = shift});
 }
 
 } // namespace

@@ -41,6 +41,12 @@ public:
         return {buffer.address()};
     }
 
+    /// The kernel reads buffer if `reads`; else it gets a null address.
+    template <typename T> gpu::ConstPtr<T> readIf(bool reads, const BufferOf<T>& buffer)
+    {
+        return reads ? read(buffer) : gpu::ConstPtr<T>{};
+    }
+
     /// The kernel writes buffer and reads nothing of what was in it before.
     template <typename T> gpu::Ptr<T> write(BufferOf<T>& buffer)
     {

@@ -79,7 +79,6 @@ struct KernelInterface
     std::array<std::uint32_t, 3> local_size{}; // threads of a workgroup, with the constants' default values
     std::array<std::uint32_t, 3> local_size_ids{kNotSpecialized, kNotSpecialized, kNotSpecialized}; // their SpecIds
     std::uint32_t push_constant_bytes = 0; // size of the push constant block, with its tail padding: sizeof in C++
-    std::string params_name;               // of the struct that is the push constant block's only member, or empty
     std::vector<ModuleConstant> constants; // by ascending id
     std::vector<ModuleBinding> bindings;   // by ascending number
 };
@@ -96,7 +95,6 @@ template <typename K>
 concept DeclaredKernel = requires
 {
     typename K::Params;
-    typename K::Description;
     K::kName;
 };
 

@@ -48,7 +48,6 @@ public:
         {
             const Layout block = layout(m_module.operand(*m_module.push_constants, 1), nullptr, 0);
             result.push_constant_bytes = block.bytes;
-            result.params_name = onlyMemberName(m_module.operand(*m_module.push_constants, 1));
         }
         result.bindings = bindings();
         for (const auto& [id, spec_id] : m_module.spec_ids)
@@ -98,12 +97,6 @@ private:
                 result.local_size_ids[i] = spec_id->second;
             }
         }
-    }
-
-    [[nodiscard]] std::string onlyMemberName(std::uint32_t block) const
-    {
-        const SpirvModule::Declaration& found = m_module.declaration(block);
-        return found.op == spv::Op::OpTypeStruct && found.operands.size() == 1 ? m_module.name(found.operands[0]) : "";
     }
 
     // Buffers that the module reaches through descriptors, as lib/bound.glsl names and numbers them.

@@ -1,21 +1,13 @@
 // SPDX-License-Identifier: MIT
-#include "vk/kernel_declaration.h"
-
 #include "vk/kernels.h"
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cstdint>
-#include <string>
-#include <utility>
 #include <vector>
 
 namespace zvo
 {
-
-/// The kernels that the headers below tests/kernels declare.
-std::vector<vk::KernelDeclaration> testKernelDeclarations();
 
 namespace
 {
@@ -81,58 +73,6 @@ TEST(KernelDeclaration, ConstantsReachTheKernelByName)
     EXPECT_EQ(run({.flag = true}), std::vector<gpu::uint>(100, 1071)) << "the others keep their default values";
 }
 
-TEST(KernelDeclaration, OfTheTestsAreThoseOfTheirModules)
-{
-    EXPECT_EQ(vk::differences(testKernelDeclarations(), testKernels()), std::vector<std::string>{});
-}
-
-// The differences reported after wrong has changed the declaration of a kernel.
-template <typename Kernel, typename Wrong> std::vector<std::string> differencesOnceWrong(const Wrong& wrong)
-{
-    std::vector<vk::KernelDeclaration> declarations = testKernelDeclarations();
-    wrong(*std::ranges::find(declarations, Kernel::kName, &vk::KernelDeclaration::name));
-    return vk::differences(declarations, testKernels());
-}
-
-TEST(KernelDeclaration, WrongConstantsAreFound)
-{
-    using Lines = std::vector<std::string>;
-    EXPECT_EQ(
-        differencesOnceWrong<Specialized>([](auto& kernel) { std::swap(kernel.constants[1], kernel.constants[2]); }),
-        (Lines{"test/specialized is declared with layout(constant_id = 1) bool kFlag = 0; its shader has "
-               "layout(constant_id = 1) uint kValue = 7",
-               "test/specialized is declared with layout(constant_id = 2) uint kValue = 7; its shader has "
-               "layout(constant_id = 2) bool kFlag = 0"}));
-    EXPECT_EQ(differencesOnceWrong<Specialized>([](auto& kernel) { kernel.constants.pop_back(); }),
-              (Lines{"test/specialized is declared with no other constant; its shader has "
-                     "layout(constant_id = 2) bool kFlag = 0"}));
-    EXPECT_EQ(differencesOnceWrong<gpu::test::Iota>(
-                  [](auto& kernel) {
-                      kernel.constants = {{"x", true, false, 1}};
-                  }),
-              (Lines{"test/iota is declared with layout(constant_id = 0) bool kX = 1; its shader has "
-                     "no other constant"}));
-    EXPECT_EQ(differencesOnceWrong<Specialized>([](auto& kernel) { kernel.constants[1].name = "values"; }).size(), 1U);
-    EXPECT_EQ(differencesOnceWrong<Specialized>([](auto& kernel) { kernel.constants[1].is_signed = true; }).size(), 1U);
-    EXPECT_EQ(differencesOnceWrong<Specialized>([](auto& kernel) { kernel.constants[1].value = 8; }).size(), 1U);
-}
-
-TEST(KernelDeclaration, WrongParametersAreFound)
-{
-    const auto found = differencesOnceWrong<gpu::test::Scale>([](auto& kernel) { kernel.params_name = "FillParams"; });
-    EXPECT_EQ(found, std::vector<std::string>{"test/scale is declared to take FillParams of 24 bytes; its shader takes "
-                                              "CopyParams of 24"});
-    EXPECT_EQ(differencesOnceWrong<gpu::test::Scale>([](auto& kernel) { kernel.params_bytes += 8; }).size(), 1U);
-    EXPECT_EQ(differencesOnceWrong<gpu::test::NoParams>([](auto& kernel) { kernel.params_name = "P"; }).size(), 1U);
-}
-
-TEST(KernelDeclaration, KernelsWithoutModuleAndModulesWithoutDeclarationAreFound)
-{
-    EXPECT_EQ(differencesOnceWrong<gpu::test::Scale>([](auto& kernel) { kernel.name = "test/scales"; }),
-              (std::vector<std::string>{"test/scales is declared, but no shader has that name",
-                                        "test/scale has no declaration: put GPU_KERNEL beside its parameters"}));
-    EXPECT_EQ(differencesOnceWrong<gpu::test::Race>([](auto& kernel) { kernel.name = "test/iota"; }).size(), 2U);
-}
-
 } // namespace
+
 } // namespace zvo

@@ -58,13 +58,6 @@ TEST(ReflectKernel, ReadsSpecializationConstants)
     EXPECT_TRUE(vk::reflectKernel(words("test/iota")).constants.empty());
 }
 
-TEST(ReflectKernel, ReadsTheNameOfItsParameters)
-{
-    EXPECT_EQ(vk::reflectKernel(words("test/iota")).params_name, "FillParams");
-    EXPECT_EQ(vk::reflectKernel(words("test/layout")).params_name, "LayoutParams");
-    EXPECT_EQ(vk::reflectKernel(words("test/no_params")).params_name, "");
-}
-
 TEST(ReflectKernel, WordsThatAreNotSpirvAreRefused)
 {
     EXPECT_THROW(vk::reflectKernel({}), Error);

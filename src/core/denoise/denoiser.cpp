@@ -83,16 +83,14 @@ void Denoiser::denoise(vk::FrameGraph& graph, const GuidedPicture& guided, std::
 void Denoiser::demodulate(vk::FrameGraph& graph, const GuidedPicture& guided)
 {
     vk::Pass pass = graph.addPass(gpu::denoise::Demodulate{});
-    gpu::DenoiseDemodulateParams params{};
-    params.sums = pass.read(guided.picture.sums);
-    params.features = pass.read(guided.features);
-    params.light = pass.write(now().light);
-    params.guides = pass.write(now().guides);
-    params.samples = pass.write(now().samples);
-    params.width = m_pixels->width;
-    params.height = m_pixels->height;
-    params.sample_count = static_cast<float>(guided.picture.sample_count);
-    pass.dispatch(m_pixels->sums.count(), params);
+    pass.dispatch(m_pixels->sums.count(), {.sums = pass.read(guided.picture.sums),
+                                           .features = pass.read(guided.features),
+                                           .light = pass.write(now().light),
+                                           .guides = pass.write(now().guides),
+                                           .samples = pass.write(now().samples),
+                                           .width = m_pixels->width,
+                                           .height = m_pixels->height,
+                                           .sample_count = static_cast<float>(guided.picture.sample_count)});
 }
 
 void Denoiser::reproject(vk::FrameGraph& graph, const GuidedPicture& guided, std::uint32_t history_max)
@@ -101,19 +99,17 @@ void Denoiser::reproject(vk::FrameGraph& graph, const GuidedPicture& guided, std
     graph.update(m_pixels->cameras, 0, std::array{guided.camera.rays, old_camera.rays});
     vk::Pass pass = graph.addPass(gpu::denoise::Reproject{.orthographic = guided.camera.orthographic,
                                                           .old_orthographic = old_camera.orthographic});
-    gpu::DenoiseReprojectParams params{};
-    params.light = pass.readWrite(now().light);
-    params.samples = pass.readWrite(now().samples);
-    params.guides = pass.read(now().guides);
-    params.old_light = pass.read(before().light);
-    params.old_samples = pass.read(before().samples);
-    params.old_guides = pass.read(before().guides);
-    params.cameras = pass.read(m_pixels->cameras);
-    params.width = m_pixels->width;
-    params.height = m_pixels->height;
-    params.history_max = static_cast<float>(history_max);
-    params.edge = guided.voxel_edge;
-    pass.dispatch(m_pixels->sums.count(), params);
+    pass.dispatch(m_pixels->sums.count(), {.light = pass.readWrite(now().light),
+                                           .samples = pass.readWrite(now().samples),
+                                           .guides = pass.read(now().guides),
+                                           .old_light = pass.read(before().light),
+                                           .old_samples = pass.read(before().samples),
+                                           .old_guides = pass.read(before().guides),
+                                           .cameras = pass.read(m_pixels->cameras),
+                                           .width = m_pixels->width,
+                                           .height = m_pixels->height,
+                                           .history_max = static_cast<float>(history_max),
+                                           .edge = guided.voxel_edge});
 }
 
 // Ends with the light in filtered[kDenoiseLevels % 2].
@@ -124,19 +120,18 @@ void Denoiser::filter(vk::FrameGraph& graph, const GuidedPicture& guided)
     const auto addLevel =
         [&](auto&& pass, const vk::BufferOf<gpu::vec4>& light, vk::BufferOf<gpu::vec4>& filtered, std::uint32_t step)
     {
-        gpu::DenoiseFilterParams params{};
-        params.light = pass.read(light);
-        params.guides = pass.read(now().guides);
-        params.samples = pass.read(now().samples);
-        params.filtered = pass.write(filtered);
-        params.forward = guided.camera.rays.forward;
-        params.half_pixel_x = guided.camera.rays.half_pixel_x;
-        params.half_pixel_y = guided.camera.rays.half_pixel_y;
-        params.width = m_pixels->width;
-        params.height = m_pixels->height;
-        params.step = step;
-        params.edge = guided.voxel_edge;
-        pass.dispatch(tile_count * gpu::kDenoiseTile * gpu::kDenoiseTile, params);
+        pass.dispatch(tile_count * gpu::kDenoiseTile * gpu::kDenoiseTile,
+                      {.light = pass.read(light),
+                       .guides = pass.read(now().guides),
+                       .samples = pass.read(now().samples),
+                       .filtered = pass.write(filtered),
+                       .forward = guided.camera.rays.forward,
+                       .half_pixel_x = guided.camera.rays.half_pixel_x,
+                       .half_pixel_y = guided.camera.rays.half_pixel_y,
+                       .width = m_pixels->width,
+                       .height = m_pixels->height,
+                       .step = step,
+                       .edge = guided.voxel_edge});
     };
     const bool orthographic = guided.camera.orthographic;
     std::array<vk::BufferOf<gpu::vec4>, 2>& filtered = m_pixels->filtered;
@@ -151,14 +146,12 @@ void Denoiser::filter(vk::FrameGraph& graph, const GuidedPicture& guided)
 void Denoiser::modulate(vk::FrameGraph& graph, const GuidedPicture& guided)
 {
     vk::Pass pass = graph.addPass(gpu::denoise::Modulate{});
-    gpu::DenoiseModulateParams params{};
-    params.light = pass.read(m_pixels->filtered.at(gpu::kDenoiseLevels % 2));
-    params.features = pass.read(guided.features);
-    params.sums = pass.write(m_pixels->sums);
-    params.width = m_pixels->width;
-    params.height = m_pixels->height;
-    params.sample_part = 1.0F / static_cast<float>(guided.picture.sample_count);
-    pass.dispatch(m_pixels->sums.count(), params);
+    pass.dispatch(m_pixels->sums.count(), {.light = pass.read(m_pixels->filtered.at(gpu::kDenoiseLevels % 2)),
+                                           .features = pass.read(guided.features),
+                                           .sums = pass.write(m_pixels->sums),
+                                           .width = m_pixels->width,
+                                           .height = m_pixels->height,
+                                           .sample_part = 1.0F / static_cast<float>(guided.picture.sample_count)});
 }
 
 } // namespace zvo

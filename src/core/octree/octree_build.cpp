@@ -17,13 +17,11 @@ constexpr std::uint64_t kBlocksUnscanned = 512;
 void numberTop(vk::FrameGraph& graph, VoxelizeBuffers& voxelize, OctreeBuildBuffers& work, DeviceTree& octree)
 {
     vk::Pass pass = graph.addPass(gpu::octree::Number{.wide_keys = hasWideKeys(octree.grid)});
-    gpu::NumberParams params{};
-    params.bricks = pass.readWrite(voxelize.bricks);
-    params.items = pass.read(work.items);
-    params.ranges = pass.read(work.ranges);
-    params.nodes = pass.readWrite(octree.nodes);
-    params.level_count = static_cast<std::uint32_t>(octree.levels.size());
-    pass.dispatch(gpu::kRootGroup, params);
+    pass.dispatch(gpu::kRootGroup, {.bricks = pass.readWrite(voxelize.bricks),
+                                    .items = pass.read(work.items),
+                                    .ranges = pass.read(work.ranges),
+                                    .nodes = pass.readWrite(octree.nodes),
+                                    .level_count = static_cast<std::uint32_t>(octree.levels.size())});
 }
 
 // Places the nodes of a level, whose first work item is given, and sets their child bases by a prefix sum.
@@ -36,15 +34,13 @@ void numberLevel(vk::FrameGraph& graph, VoxelizeBuffers& voxelize, OctreeBuildBu
     const std::uint64_t skipped = first_block * sizeof(gpu::uint);
     {
         vk::Pass pass = graph.addPass(gpu::octree::Place{.wide_keys = hasWideKeys(octree.grid)});
-        gpu::PlaceParams params{};
-        params.bricks = pass.readWrite(voxelize.bricks);
-        params.items = pass.read(work.items);
-        params.nodes = pass.readWrite(octree.nodes);
-        params.partials = {pass.readWrite(work.partials).address + skipped};
-        params.first_item = first_item;
-        params.first_node = first_node;
-        params.node_count = node_count;
-        pass.dispatch(node_count, params);
+        pass.dispatch(node_count, {.bricks = pass.readWrite(voxelize.bricks),
+                                   .items = pass.read(work.items),
+                                   .nodes = pass.readWrite(octree.nodes),
+                                   .partials = {pass.readWrite(work.partials).address + skipped},
+                                   .first_item = first_item,
+                                   .first_node = first_node,
+                                   .node_count = node_count});
     }
     if (block_count > kBlocksUnscanned)
     {
@@ -55,16 +51,15 @@ void numberLevel(vk::FrameGraph& graph, VoxelizeBuffers& voxelize, OctreeBuildBu
         pass.dispatch(gpu::kScanGroup, params);
     }
     vk::Pass pass = graph.addPass(gpu::octree::Assign{});
-    gpu::AssignParams params{};
-    params.nodes = pass.readWrite(octree.nodes);
-    params.bricks = pass.readWrite(voxelize.bricks);
-    params.partials = {pass.read(work.partials).address + skipped};
-    params.is_scanned = block_count > kBlocksUnscanned ? 1 : 0;
-    params.first_node = first_node;
-    params.node_count = node_count;
-    params.first_child = are_leaves ? 0 : first_node + node_count;
-    params.tell_bricks = are_leaves && !hasWideKeys(octree.grid) ? 1 : 0;
-    pass.dispatch(divideUp(node_count, gpu::kAssignItems), params);
+    pass.dispatch(divideUp(node_count, gpu::kAssignItems),
+                  {.nodes = pass.readWrite(octree.nodes),
+                   .bricks = pass.readWrite(voxelize.bricks),
+                   .partials = {pass.read(work.partials).address + skipped},
+                   .is_scanned = block_count > kBlocksUnscanned ? 1U : 0U,
+                   .first_node = first_node,
+                   .node_count = node_count,
+                   .first_child = are_leaves ? 0 : first_node + node_count,
+                   .tell_bricks = are_leaves && !hasWideKeys(octree.grid) ? 1U : 0U});
 }
 
 } // namespace
@@ -84,29 +79,28 @@ void listNodes(vk::FrameGraph& graph, const Grid& grid, VoxelizeBuffers& voxeliz
     const std::uint32_t max_groups_x = graph.device().limits().maxComputeWorkGroupCount[0];
     {
         vk::Pass pass = graph.addPass(gpu::octree::Collect{.mixed = voxelize.sum_form.mixed});
-        gpu::CollectParams params{};
-        params.bricks = pass.readWrite(voxelize.bricks);
-        params.items = pass.write(work.items);
-        params.counters = pass.readWrite(voxelize.counters);
-        params.ranges = pass.readWrite(work.ranges);
-        params.args = pass.readWrite(work.args);
-        params.brick_capacity = static_cast<std::uint32_t>(voxelize.brickCapacity());
-        params.max_groups_x = max_groups_x;
-        pass.dispatch(divideUp(voxelize.brickCapacity(), gpu::kCollectItems), params);
+        pass.dispatch(divideUp(voxelize.brickCapacity(), gpu::kCollectItems),
+                      {.bricks = pass.readWrite(voxelize.bricks),
+                       .items = pass.write(work.items),
+                       .counters = pass.readWrite(voxelize.counters),
+                       .ranges = pass.readWrite(work.ranges),
+                       .args = pass.readWrite(work.args),
+                       .brick_capacity = static_cast<std::uint32_t>(voxelize.brickCapacity()),
+                       .max_groups_x = max_groups_x});
     }
     for (std::uint32_t height = 0; height + 1 < grid.nodeLevels(); ++height) // the root has no parent
     {
         vk::Pass pass = graph.addPass(gpu::octree::Parents{.wide_keys = hasWideKeys(grid)});
-        gpu::ParentsParams params{};
-        params.bricks = pass.readWrite(voxelize.bricks);
-        params.items = pass.readWrite(work.items);
-        params.counters = pass.readWrite(voxelize.counters);
-        params.ranges = pass.readWrite(work.ranges);
-        params.args = pass.readWrite(work.args);
-        params.brick_mask = static_cast<std::uint32_t>(voxelize.brickCapacity() - 1);
-        params.height = height;
-        params.max_groups_x = max_groups_x;
-        pass.dispatchIndirect(work.args, height, params, divideUp(work.items.count(), gpu::kNodesGroup));
+        pass.dispatchIndirect(work.args, height,
+                              {.bricks = pass.readWrite(voxelize.bricks),
+                               .items = pass.readWrite(work.items),
+                               .counters = pass.readWrite(voxelize.counters),
+                               .ranges = pass.readWrite(work.ranges),
+                               .args = pass.readWrite(work.args),
+                               .brick_mask = static_cast<std::uint32_t>(voxelize.brickCapacity() - 1),
+                               .height = height,
+                               .max_groups_x = max_groups_x},
+                              divideUp(work.items.count(), gpu::kNodesGroup));
     }
 }
 
@@ -145,14 +139,13 @@ void averageNodes(vk::FrameGraph& graph, const GpuScene& scene, DeviceTree& octr
         const auto [first_node, node_count] = octree.levels[level - 1];
         const std::uint32_t lanes = lanesOn(graph.device(), node_count);
         vk::Pass pass = graph.addPass(gpu::octree::Average{.lanes = lanes});
-        gpu::AverageParams params{};
-        params.scene = readColorTables(pass, scene);
-        params.nodes = pass.read(octree.nodes);
-        params.children = is_leaf ? pass.read(octree.voxel_attributes) : pass.read(octree.node_attributes);
-        params.averages = pass.readWrite(octree.node_attributes);
-        params.first_node = first_node;
-        params.node_count = node_count;
-        pass.dispatch(std::uint64_t{node_count} * lanes, params);
+        pass.dispatch(std::uint64_t{node_count} * lanes,
+                      {.scene = readColorTables(pass, scene),
+                       .nodes = pass.read(octree.nodes),
+                       .children = is_leaf ? pass.read(octree.voxel_attributes) : pass.read(octree.node_attributes),
+                       .averages = pass.readWrite(octree.node_attributes),
+                       .first_node = first_node,
+                       .node_count = node_count});
     }
     if (level == 0)
     {

@@ -45,14 +45,12 @@ void Developer::develop(vk::FrameGraph& graph, const SampledPicture& picture, Te
         graph.update(m_exposure, 0, std::array{exposure.factor});
     }
     vk::Pass pass = graph.addPass(gpu::path::Develop{.texels = texels});
-    gpu::PathDevelopParams params{};
-    params.sums = pass.read(picture.sums);
-    params.exposure = pass.read(m_exposure);
-    params.image = pass.write(image);
-    params.width = picture.width;
-    params.height = picture.height;
-    params.sample_part = partOf(picture);
-    pass.dispatch(picture.sums.count(), params);
+    pass.dispatch(picture.sums.count(), {.sums = pass.read(picture.sums),
+                                         .exposure = pass.read(m_exposure),
+                                         .image = pass.write(image),
+                                         .width = picture.width,
+                                         .height = picture.height,
+                                         .sample_part = partOf(picture)});
 }
 
 HdrImage pictureOf(std::span<const gpu::PixelSum> sums, std::uint32_t width, std::uint32_t height,

@@ -305,16 +305,14 @@ void PathTracer::traceInStages(vk::FrameGraph& graph, const Batch& batch)
     graph.fill(paths.lists, 0, 0, list_bytes / sizeof(gpu::uint));
     {
         vk::Pass pass = graph.addPass(gpu::path::Begin{.orthographic = batch.camera.orthographic});
-        gpu::PathBeginParams params{};
-        params.rays = pass.write(paths.rays[0]);
-        params.states = pass.write(paths.states[0]);
-        params.radiance = pass.write(paths.radiance);
-        params.lists = pass.readWrite(paths.lists);
-        params.view = m_view;
-        params.first_pixel = batch.first_pixel;
-        params.pixel_count = batch.pixel_count;
-        params.sample_index = m_sample_count;
-        pass.dispatch(batch.pixel_count, params);
+        pass.dispatch(batch.pixel_count, {.rays = pass.write(paths.rays[0]),
+                                          .states = pass.write(paths.states[0]),
+                                          .radiance = pass.write(paths.radiance),
+                                          .lists = pass.readWrite(paths.lists),
+                                          .view = m_view,
+                                          .first_pixel = batch.first_pixel,
+                                          .pixel_count = batch.pixel_count,
+                                          .sample_index = m_sample_count});
     }
     const PathLight light = {batch.tree,       batch.environment,       m_lights,       m_pixels->status,
                              options.sampling, options.lights_by_power, m_sample_count, batch.pixel_count};
@@ -346,18 +344,16 @@ void PathTracer::addFeatures(vk::FrameGraph& graph, const Batch& batch)
     const DeviceTree& tree = batch.tree;
     vk::Pass pass =
         graph.addPass(gpu::path::Features{.node_levels = tree.grid.nodeLevels(), .format = tree.attributeFormat()});
-    gpu::PathFeaturesParams params{};
-    params.attributes = readVoxelAttributes(pass, tree);
-    params.rays = pass.read(pixels.batch.rays[0]);
-    params.hits = pass.read(pixels.batch.hits);
-    params.radiance = pass.read(pixels.batch.radiance);
-    params.direct = pass.write(pixels.direct);
-    params.features = pass.readWrite(pixels.features);
-    params.origin = batch.camera.rays.origin;
-    params.forward = batch.camera.rays.forward;
-    params.first_pixel = batch.first_pixel;
-    params.pixel_count = batch.pixel_count;
-    pass.dispatch(batch.pixel_count, params);
+    pass.dispatch(batch.pixel_count, {.attributes = readVoxelAttributes(pass, tree),
+                                      .rays = pass.read(pixels.batch.rays[0]),
+                                      .hits = pass.read(pixels.batch.hits),
+                                      .radiance = pass.read(pixels.batch.radiance),
+                                      .direct = pass.write(pixels.direct),
+                                      .features = pass.readWrite(pixels.features),
+                                      .origin = batch.camera.rays.origin,
+                                      .forward = batch.camera.rays.forward,
+                                      .first_pixel = batch.first_pixel,
+                                      .pixel_count = batch.pixel_count});
 }
 
 void PathTracer::finish(vk::FrameGraph& graph, const Batch& batch)
@@ -387,25 +383,21 @@ void PathTracer::shade(vk::FrameGraph& graph, const Batch& batch, std::uint32_t 
                                                    .sampling = batch.options.sampling,
                                                    .last = bounce == std::min(batch.options.bounces, kBouncesMax),
                                                    .roulette = batch.options.roulette});
-    gpu::PathShadeParams params{};
-    params.attributes = readVoxelAttributes(pass, tree);
-    params.hits = pass.read(paths.hits);
-    params.gives = pass.read(batch.environment.gives());
-    if (emits)
-    {
-        params.emission_words = pass.read(tree.emission_words);
-        params.light_nodes = pass.read(m_lights.nodes());
-    }
-    params.rays = pass.read(paths.rays.at(bounce % kPathLists));
-    params.states = pass.read(paths.states.at(bounce % kPathLists));
-    params.next_rays = pass.readWrite(paths.rays.at((bounce + 1) % kPathLists));
-    params.next_states = pass.readWrite(paths.states.at((bounce + 1) % kPathLists));
-    params.lists = pass.readWrite(paths.lists);
-    params.numbers = pass.readWrite(paths.numbers);
-    params.bounce = bounce;
-    params.sample_index = m_sample_count;
-    params.batch = static_cast<std::uint32_t>(paths.capacity());
-    pass.dispatchIndirect(paths.lists, listArgs(bounce, gpu::kListPaths), params,
+    pass.dispatchIndirect(paths.lists, listArgs(bounce, gpu::kListPaths),
+                          {.attributes = readVoxelAttributes(pass, tree),
+                           .emission_words = pass.readIf(emits, tree.emission_words),
+                           .hits = pass.read(paths.hits),
+                           .gives = pass.read(batch.environment.gives()),
+                           .light_nodes = pass.readIf(emits, m_lights.nodes()),
+                           .rays = pass.read(paths.rays.at(bounce % kPathLists)),
+                           .states = pass.read(paths.states.at(bounce % kPathLists)),
+                           .next_rays = pass.readWrite(paths.rays.at((bounce + 1) % kPathLists)),
+                           .next_states = pass.readWrite(paths.states.at((bounce + 1) % kPathLists)),
+                           .lists = pass.readWrite(paths.lists),
+                           .numbers = pass.readWrite(paths.numbers),
+                           .bounce = bounce,
+                           .sample_index = m_sample_count,
+                           .batch = static_cast<std::uint32_t>(paths.capacity())},
                           divideUp(batch.pixel_count, gpu::kPathGroup));
 }
 

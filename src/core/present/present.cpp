@@ -11,12 +11,11 @@ void scalePicture(vk::FrameGraph& graph, const vk::BufferOf<gpu::uint>& from, Pi
                   vk::BufferOf<gpu::uint>& to, PictureSize to_size)
 {
     vk::Pass pass = graph.addPass(gpu::present::Scale{});
-    gpu::ScaleParams params{};
-    params.from = pass.read(from);
-    params.to = pass.write(to);
-    params.from_size = {from_size.width, from_size.height};
-    params.to_size = {to_size.width, to_size.height};
-    pass.dispatch(std::uint64_t{to_size.width} * divideUp(to_size.height, gpu::kScaleRows), params);
+    pass.dispatch(std::uint64_t{to_size.width} * divideUp(to_size.height, gpu::kScaleRows),
+                  {.from = pass.read(from),
+                   .to = pass.write(to),
+                   .from_size = {from_size.width, from_size.height},
+                   .to_size = {to_size.width, to_size.height}});
 }
 
 } // namespace zvo

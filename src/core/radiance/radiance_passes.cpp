@@ -62,37 +62,36 @@ void want(vk::FrameGraph& graph, const RadianceFrame& frame)
     vk::Pass pass = graph.addPass(
         gpu::radiance::Want{.orthographic = frame.camera.orthographic,
                             .turns = wantingTurns(frame.seen.width, frame.seen.height, frame.lists.faces)});
-    gpu::RadianceWantParams params{};
-    params.faces = pass.readWrite(frame.table.faces);
-    params.states = pass.readWrite(frame.table.states);
-    params.counters = pass.readWrite(frame.table.counters);
-    params.wanted = pass.readWrite(frame.lists.wanted.at(frame.number % 2));
-    params.lists = pass.readWrite(frame.lists.batch.lists);
-    params.hits = pass.read(frame.seen.hits);
-    params.live = pass.read(frame.seen.live);
-    params.forward = frame.camera.rays.forward;
-    params.half_pixel_x = frame.camera.rays.half_pixel_x;
-    params.half_pixel_y = frame.camera.rays.half_pixel_y;
-    params.width = frame.seen.width;
-    params.height = frame.seen.height;
-    params.run_count = frame.table.run_count;
-    params.frame = frame.number;
-    pass.dispatchIndirect(frame.seen.args, 0, params, frame.seen.live.count());
+    pass.dispatchIndirect(frame.seen.args, 0,
+                          {.faces = pass.readWrite(frame.table.faces),
+                           .states = pass.readWrite(frame.table.states),
+                           .counters = pass.readWrite(frame.table.counters),
+                           .wanted = pass.readWrite(frame.lists.wanted.at(frame.number % 2)),
+                           .lists = pass.readWrite(frame.lists.batch.lists),
+                           .hits = pass.read(frame.seen.hits),
+                           .live = pass.read(frame.seen.live),
+                           .forward = frame.camera.rays.forward,
+                           .half_pixel_x = frame.camera.rays.half_pixel_x,
+                           .half_pixel_y = frame.camera.rays.half_pixel_y,
+                           .width = frame.seen.width,
+                           .height = frame.seen.height,
+                           .run_count = frame.table.run_count,
+                           .frame = frame.number},
+                          frame.seen.live.count());
 }
 
 void tally(vk::FrameGraph& graph, const RadianceFrame& frame)
 {
     PathBatch& batch = frame.lists.batch;
     vk::Pass pass = graph.addPass(gpu::radiance::Tally{});
-    gpu::RadianceTallyParams params{};
-    params.faces = pass.read(frame.table.faces);
-    params.states = pass.read(frame.table.states);
-    params.wanted = pass.read(frame.lists.wanted.at(frame.number % 2));
-    params.counters = pass.readWrite(frame.table.counters);
-    params.lists = pass.readWrite(batch.lists);
-    params.frame = frame.number;
-    params.budget = frame.lists.faces;
-    pass.dispatchIndirect(batch.lists, listArgs(wantedList(frame.number), gpu::kListPaths), params,
+    pass.dispatchIndirect(batch.lists, listArgs(wantedList(frame.number), gpu::kListPaths),
+                          {.faces = pass.read(frame.table.faces),
+                           .states = pass.read(frame.table.states),
+                           .wanted = pass.read(frame.lists.wanted.at(frame.number % 2)),
+                           .counters = pass.readWrite(frame.table.counters),
+                           .lists = pass.readWrite(batch.lists),
+                           .frame = frame.number,
+                           .budget = frame.lists.faces},
                           divideUp(frame.lists.wanted[0].count(), gpu::kPathGroup));
 }
 
@@ -100,15 +99,14 @@ void take(vk::FrameGraph& graph, const RadianceFrame& frame)
 {
     PathBatch& batch = frame.lists.batch;
     vk::Pass pass = graph.addPass(gpu::radiance::Take{});
-    gpu::RadianceTakeParams params{};
-    params.faces = pass.read(frame.table.faces);
-    params.states = pass.readWrite(frame.table.states);
-    params.wanted = pass.read(frame.lists.wanted.at(frame.number % 2));
-    params.counters = pass.read(frame.table.counters);
-    params.lists = pass.readWrite(batch.lists);
-    params.numbers = pass.readWrite(batch.numbers);
-    params.frame = frame.number;
-    pass.dispatchIndirect(batch.lists, listArgs(wantedList(frame.number), gpu::kListPaths), params,
+    pass.dispatchIndirect(batch.lists, listArgs(wantedList(frame.number), gpu::kListPaths),
+                          {.faces = pass.read(frame.table.faces),
+                           .states = pass.readWrite(frame.table.states),
+                           .wanted = pass.read(frame.lists.wanted.at(frame.number % 2)),
+                           .counters = pass.read(frame.table.counters),
+                           .lists = pass.readWrite(batch.lists),
+                           .numbers = pass.readWrite(batch.numbers),
+                           .frame = frame.number},
                           divideUp(frame.lists.wanted[0].count(), gpu::kPathGroup));
 }
 
@@ -117,26 +115,22 @@ void begin(vk::FrameGraph& graph, const RadianceFrame& frame)
     PathBatch& batch = frame.lists.batch;
     const bool emits = hasEmission(frame.tree);
     vk::Pass pass = graph.addPass(gpu::radiance::Begin{.node_levels = frame.tree.grid.nodeLevels(), .emission = emits});
-    gpu::RadianceBeginParams params{};
-    params.faces = pass.readWrite(frame.table.faces);
-    params.states = pass.readWrite(frame.table.states);
-    params.counters = pass.readWrite(frame.table.counters);
-    params.gives = pass.read(frame.environment.gives());
-    if (emits)
-    {
-        params.light_nodes = pass.read(frame.lights.nodes());
-    }
-    params.lists = pass.readWrite(batch.lists);
-    params.numbers = pass.readWrite(batch.numbers);
-    params.rays = pass.readWrite(batch.rays[0]);
-    params.path_states = pass.readWrite(batch.states[0]);
-    params.radiance = pass.readWrite(batch.radiance);
-    params.bricks = pass.readWrite(frame.lists.bricks);
-    params.batch = static_cast<std::uint32_t>(batch.capacity());
-    params.run_count = frame.table.run_count;
-    params.sample_index = frame.number;
-    params.seed = frame.seed;
-    pass.dispatchIndirect(batch.lists, listArgs(0, gpu::kListPaths), params,
+    pass.dispatchIndirect(batch.lists, listArgs(0, gpu::kListPaths),
+                          {.faces = pass.readWrite(frame.table.faces),
+                           .states = pass.readWrite(frame.table.states),
+                           .counters = pass.readWrite(frame.table.counters),
+                           .gives = pass.read(frame.environment.gives()),
+                           .light_nodes = pass.readIf(emits, frame.lights.nodes()),
+                           .lists = pass.readWrite(batch.lists),
+                           .numbers = pass.readWrite(batch.numbers),
+                           .rays = pass.readWrite(batch.rays[0]),
+                           .path_states = pass.readWrite(batch.states[0]),
+                           .radiance = pass.readWrite(batch.radiance),
+                           .bricks = pass.readWrite(frame.lists.bricks),
+                           .batch = static_cast<std::uint32_t>(batch.capacity()),
+                           .run_count = frame.table.run_count,
+                           .sample_index = frame.number,
+                           .seed = frame.seed},
                           divideUp(frame.lists.faces, gpu::kPathGroup));
 }
 
@@ -144,16 +138,15 @@ void surround(vk::FrameGraph& graph, const RadianceFrame& frame, std::uint32_t l
 {
     PathBatch& batch = frame.lists.batch;
     vk::Pass pass = graph.addPass(gpu::radiance::Surround{});
-    gpu::RadianceSurroundParams params{};
-    params.faces = pass.readWrite(frame.table.faces);
-    params.states = pass.readWrite(frame.table.states);
-    params.counters = pass.readWrite(frame.table.counters);
-    params.lists = pass.readWrite(batch.lists);
-    params.bricks = pass.readWrite(frame.lists.bricks);
-    params.batch = static_cast<std::uint32_t>(batch.capacity());
-    params.run_count = frame.table.run_count;
-    params.level = level;
-    pass.dispatchIndirect(batch.lists, listArgs(gpu::kFirstBricks + level - 2, gpu::kListPaths), params,
+    pass.dispatchIndirect(batch.lists, listArgs(gpu::kFirstBricks + level - 2, gpu::kListPaths),
+                          {.faces = pass.readWrite(frame.table.faces),
+                           .states = pass.readWrite(frame.table.states),
+                           .counters = pass.readWrite(frame.table.counters),
+                           .lists = pass.readWrite(batch.lists),
+                           .bricks = pass.readWrite(frame.lists.bricks),
+                           .batch = static_cast<std::uint32_t>(batch.capacity()),
+                           .run_count = frame.table.run_count,
+                           .level = level},
                           divideUp(frame.lists.faces, gpu::kPathGroup));
 }
 
@@ -201,28 +194,24 @@ void extend(vk::FrameGraph& graph, const RadianceFrame& frame)
     const bool emits = hasEmission(frame.tree);
     vk::Pass pass = graph.addPass(gpu::radiance::Extend{
         .node_levels = frame.tree.grid.nodeLevels(), .format = frame.tree.attributeFormat(), .emission = emits});
-    gpu::RadianceExtendParams params{};
-    params.faces = pass.read(frame.table.faces);
-    params.states = pass.read(frame.table.states);
-    params.attributes = readVoxelAttributes(pass, frame.tree);
-    params.hits = pass.read(batch.hits);
-    params.gives = pass.read(frame.environment.gives());
-    if (emits)
-    {
-        params.light_nodes = pass.read(frame.lights.nodes());
-    }
-    params.rays = pass.read(batch.rays[0]);
-    params.path_states = pass.read(batch.states[0]);
-    params.next_rays = pass.readWrite(batch.rays[1]);
-    params.next_states = pass.readWrite(batch.states[1]);
-    params.lists = pass.readWrite(batch.lists);
-    params.numbers = pass.readWrite(batch.numbers);
-    params.unlit = pass.read(frame.lists.unlit);
-    params.radiance = pass.readWrite(batch.radiance);
-    params.batch = static_cast<std::uint32_t>(batch.capacity());
-    params.run_count = frame.table.run_count;
-    params.sample_index = frame.number;
-    pass.dispatchIndirect(batch.lists, listArgs(gpu::kUnlitPaths, gpu::kListPaths), params,
+    pass.dispatchIndirect(batch.lists, listArgs(gpu::kUnlitPaths, gpu::kListPaths),
+                          {.faces = pass.read(frame.table.faces),
+                           .states = pass.read(frame.table.states),
+                           .attributes = readVoxelAttributes(pass, frame.tree),
+                           .hits = pass.read(batch.hits),
+                           .gives = pass.read(frame.environment.gives()),
+                           .light_nodes = pass.readIf(emits, frame.lights.nodes()),
+                           .rays = pass.read(batch.rays[0]),
+                           .path_states = pass.read(batch.states[0]),
+                           .next_rays = pass.readWrite(batch.rays[1]),
+                           .next_states = pass.readWrite(batch.states[1]),
+                           .lists = pass.readWrite(batch.lists),
+                           .numbers = pass.readWrite(batch.numbers),
+                           .unlit = pass.read(frame.lists.unlit),
+                           .radiance = pass.readWrite(batch.radiance),
+                           .batch = static_cast<std::uint32_t>(batch.capacity()),
+                           .run_count = frame.table.run_count,
+                           .sample_index = frame.number},
                           divideUp(frame.lists.faces, gpu::kPathGroup));
 }
 
@@ -321,16 +310,14 @@ void purgeFaces(vk::FrameGraph& graph, const RadianceTable& from, RadianceTable&
     graph.fill(lists.batch.lists, 0);
     graph.fill(lists.sums, 0);
     vk::Pass pass = graph.addPass(gpu::radiance::Purge{});
-    gpu::RadiancePurgeParams params{};
-    params.faces = pass.readWrite(to.faces);
-    params.states = pass.readWrite(to.states);
-    params.counters = pass.readWrite(to.counters);
-    params.old_faces = pass.read(from.faces);
-    params.old_states = pass.read(from.states);
-    params.run_count = to.run_count;
-    params.frame = frame;
-    params.age_max = age_max;
-    pass.dispatch(to.faces.count(), params);
+    pass.dispatch(to.faces.count(), {.faces = pass.readWrite(to.faces),
+                                     .states = pass.readWrite(to.states),
+                                     .counters = pass.readWrite(to.counters),
+                                     .old_faces = pass.read(from.faces),
+                                     .old_states = pass.read(from.states),
+                                     .run_count = to.run_count,
+                                     .frame = frame,
+                                     .age_max = age_max});
 }
 
 void sampleFaces(vk::FrameGraph& graph, const RadianceFrame& frame)

@@ -66,23 +66,18 @@ void RadianceView::addKept(vk::FrameGraph& graph, const Work& work)
                                                       .emission = emits,
                                                       .reflects = work.kind == KeptView::Faces,
                                                       .adds = !work.begins});
-    gpu::RadianceViewParams params{};
-    params.faces = pass.read(work.cache.faces());
-    params.hits = pass.read(work.seen.hits);
-    params.starts = pass.read(work.seen.starts);
-    params.attributes = readVoxelAttributes(pass, work.tree);
-    if (emits)
-    {
-        params.emission_words = pass.read(work.tree.emission_words);
-    }
-    params.sums = pass.readWrite(m_sums);
-    params.lists = pass.readWrite(m_lists);
-    params.direct = pass.readWrite(m_direct);
-    params.camera = work.camera.rays;
-    params.width = m_width;
-    params.height = m_height;
-    params.run_count = work.runCount();
-    pass.dispatch(m_sums.count(), params);
+    pass.dispatch(m_sums.count(), {.faces = pass.read(work.cache.faces()),
+                                   .hits = pass.read(work.seen.hits),
+                                   .starts = pass.read(work.seen.starts),
+                                   .attributes = readVoxelAttributes(pass, work.tree),
+                                   .emission_words = pass.readIf(emits, work.tree.emission_words),
+                                   .sums = pass.readWrite(m_sums),
+                                   .lists = pass.readWrite(m_lists),
+                                   .direct = pass.readWrite(m_direct),
+                                   .camera = work.camera.rays,
+                                   .width = m_width,
+                                   .height = m_height,
+                                   .run_count = work.runCount()});
 }
 
 // Records the pass that adds what pixels reflect of the light through a cone.

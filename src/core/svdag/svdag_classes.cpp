@@ -44,29 +44,25 @@ void findClassesOf(vk::FrameGraph& graph, const Candidates& candidates, std::siz
     if (!are_leaves)
     {
         vk::Pass pass = graph.addPass(gpu::svdag::Hash{.entries_per_word = per_word});
-        gpu::ClassHashParams params{};
-        params.nodes = pass.read(candidates.tree.nodes);
-        params.classes = pass.read(buffers.classes);
-        params.hashes = pass.write(buffers.hashes);
-        params.first_node = first_node;
-        params.node_count = node_count;
-        params.hash_mask = candidates.hash_mask;
-        pass.dispatch(node_count, params);
+        pass.dispatch(node_count, {.nodes = pass.read(candidates.tree.nodes),
+                                   .classes = pass.read(buffers.classes),
+                                   .hashes = pass.write(buffers.hashes),
+                                   .first_node = first_node,
+                                   .node_count = node_count,
+                                   .hash_mask = candidates.hash_mask});
     }
     {
         vk::Pass pass = graph.addPass(gpu::svdag::Insert{.entries_per_word = per_word, .leaves = are_leaves});
-        gpu::ClassInsertParams params{};
-        params.nodes = pass.read(candidates.tree.nodes);
-        params.hashes = pass.read(buffers.hashes);
-        params.classes = pass.readWrite(buffers.classes);
-        params.table = pass.readWrite(buffers.table);
-        params.sizes = pass.readWrite(buffers.sizes);
-        params.first_node = first_node;
-        params.node_count = node_count;
-        params.first_slot = static_cast<std::uint32_t>(slotTotal(slot_counts.first(level)));
-        params.slot_mask = static_cast<std::uint32_t>(slot_counts[level] - 1);
-        params.level = static_cast<std::uint32_t>(level);
-        pass.dispatch(node_count, params);
+        pass.dispatch(node_count, {.nodes = pass.read(candidates.tree.nodes),
+                                   .hashes = pass.read(buffers.hashes),
+                                   .classes = pass.readWrite(buffers.classes),
+                                   .table = pass.readWrite(buffers.table),
+                                   .sizes = pass.readWrite(buffers.sizes),
+                                   .first_node = first_node,
+                                   .node_count = node_count,
+                                   .first_slot = static_cast<std::uint32_t>(slotTotal(slot_counts.first(level))),
+                                   .slot_mask = static_cast<std::uint32_t>(slot_counts[level] - 1),
+                                   .level = static_cast<std::uint32_t>(level)});
     }
     vk::Pass pass = graph.addPass(gpu::svdag::Resolve{});
     const gpu::ClassResolveParams params = {pass.readWrite(buffers.classes), pass.read(buffers.table), first_node,
@@ -89,29 +85,25 @@ void numberClasses(vk::FrameGraph& graph, const Candidates& candidates, ClassBuf
     const std::uint64_t threads = divideUp(candidates.count(), gpu::kScanItems);
     {
         vk::Pass pass = graph.addPass(gpu::svdag::Count{});
-        gpu::ClassCountParams params{};
-        params.nodes = pass.read(candidates.tree.nodes);
-        params.classes = pass.read(buffers.classes);
-        params.node_partials = pass.write(buffers.node_partials);
-        params.entry_partials = pass.write(buffers.entry_partials);
-        params.node_count = candidates.count();
-        params.inner_count = candidates.innerCount();
-        pass.dispatch(threads, params);
+        pass.dispatch(threads, {.nodes = pass.read(candidates.tree.nodes),
+                                .classes = pass.read(buffers.classes),
+                                .node_partials = pass.write(buffers.node_partials),
+                                .entry_partials = pass.write(buffers.entry_partials),
+                                .node_count = candidates.count(),
+                                .inner_count = candidates.innerCount()});
     }
     scan(graph, buffers.node_partials, buffers.sizes, offsetof(gpu::ClassSizes, node_count));
     scan(graph, buffers.entry_partials, buffers.sizes, offsetof(gpu::ClassSizes, entry_count));
     vk::Pass pass = graph.addPass(gpu::svdag::Number{});
-    gpu::ClassNumberParams params{};
-    params.nodes = pass.read(candidates.tree.nodes);
-    params.classes = pass.read(buffers.classes);
-    params.node_partials = pass.read(buffers.node_partials);
-    params.entry_partials = pass.read(buffers.entry_partials);
-    params.numbers = pass.write(buffers.numbers);
-    params.first_entries = pass.write(buffers.first_entries);
-    params.unique_nodes = pass.write(buffers.table);
-    params.node_count = candidates.count();
-    params.inner_count = candidates.innerCount();
-    pass.dispatch(threads, params);
+    pass.dispatch(threads, {.nodes = pass.read(candidates.tree.nodes),
+                            .classes = pass.read(buffers.classes),
+                            .node_partials = pass.read(buffers.node_partials),
+                            .entry_partials = pass.read(buffers.entry_partials),
+                            .numbers = pass.write(buffers.numbers),
+                            .first_entries = pass.write(buffers.first_entries),
+                            .unique_nodes = pass.write(buffers.table),
+                            .node_count = candidates.count(),
+                            .inner_count = candidates.innerCount()});
 }
 
 } // namespace

@@ -40,18 +40,17 @@ void traceBeam(vk::FrameGraph& graph, const DeviceTree& tree, const TraceCamera&
                                                    .orthographic = camera.orthographic,
                                                    .beam = options.beam,
                                                    .empty = isEmpty(tree)});
-    gpu::BeamParams params{};
-    params.nodes = pass.read(tree.nodes);
-    params.starts = pass.write(buffers.starts);
-    params.live = pass.write(buffers.live);
-    params.args = pass.readWrite(buffers.args);
-    params.status = pass.readWrite(buffers.status);
-    params.camera = camera.rays;
-    params.width = buffers.width;
-    params.height = buffers.height;
-    params.block_stride = coprimeStride(static_cast<std::uint32_t>(tiles.blocks));
-    params.detail = detailOf(options, &camera);
-    pass.dispatch(tiles.blocks * gpu::kBlockTiles, params);
+    pass.dispatch(tiles.blocks * gpu::kBlockTiles,
+                  {.nodes = pass.read(tree.nodes),
+                   .starts = pass.write(buffers.starts),
+                   .live = pass.write(buffers.live),
+                   .args = pass.readWrite(buffers.args),
+                   .status = pass.readWrite(buffers.status),
+                   .camera = camera.rays,
+                   .width = buffers.width,
+                   .height = buffers.height,
+                   .block_stride = coprimeStride(static_cast<std::uint32_t>(tiles.blocks)),
+                   .detail = detailOf(options, &camera)});
 }
 
 } // namespace zvo

@@ -187,18 +187,17 @@ void resolveMixed(vk::FrameGraph& graph, const VoxelizeJob& job, const vk::Buffe
     const std::uint32_t leaf_count = octree.levels.back().node_count;
     const std::uint32_t lanes = lanesOn(graph.device(), leaf_count);
     vk::Pass pass = graph.addPass(gpu::voxelize::ResolveMixed{.wide_keys = hasWideKeys(job.tile.grid), .lanes = lanes});
-    gpu::ResolveMixedParams params{};
-    params.scene = readColorTables(pass, job.scene.uploaded());
-    params.bricks = pass.read(job.buffers.bricks);
-    params.items = pass.read(leaves);
-    params.nodes = pass.read(octree.nodes);
-    params.sums = pass.read(attributes.sums);
-    params.attributes = pass.readWrite(octree.voxel_attributes);
-    params.max_fragments = pass.readWrite(attributes.max_fragments);
-    params.brick_mask = static_cast<std::uint32_t>(job.buffers.brickCapacity() - 1);
-    params.leaf_count = leaf_count;
-    params.sum_shift = attributes.sum_shift;
-    pass.dispatch(std::uint64_t{leaf_count} * lanes, params);
+    pass.dispatch(std::uint64_t{leaf_count} * lanes,
+                  {.scene = readColorTables(pass, job.scene.uploaded()),
+                   .bricks = pass.read(job.buffers.bricks),
+                   .items = pass.read(leaves),
+                   .nodes = pass.read(octree.nodes),
+                   .sums = pass.read(attributes.sums),
+                   .attributes = pass.readWrite(octree.voxel_attributes),
+                   .max_fragments = pass.readWrite(attributes.max_fragments),
+                   .brick_mask = static_cast<std::uint32_t>(job.buffers.brickCapacity() - 1),
+                   .leaf_count = leaf_count,
+                   .sum_shift = attributes.sum_shift});
 }
 
 AttributeSums sumsOf(AttributeBuffers& attributes, DeviceTree& octree)
@@ -372,16 +371,14 @@ void voxelizeAttributes(vk::FrameGraph& graph, const VoxelizeJob& job, const vk:
     }
     {
         vk::Pass pass = graph.addPass(gpu::voxelize::Resolve{});
-        gpu::ResolveParams params{};
-        params.scene = readColorTables(pass, job.scene.uploaded());
-        params.sums = pass.read(attributes.sums);
-        params.emission_words = pass.read(octree.emission_words);
-        params.attributes = pass.write(octree.voxel_attributes);
-        params.max_fragments = pass.readWrite(attributes.max_fragments);
-        params.voxel_count = octree.voxel_count;
-        params.has_emission = emission ? 1 : 0;
-        params.sum_shift = attributes.sum_shift;
-        pass.dispatch(octree.voxel_count, params);
+        pass.dispatch(octree.voxel_count, {.scene = readColorTables(pass, job.scene.uploaded()),
+                                           .sums = pass.read(attributes.sums),
+                                           .emission_words = pass.read(octree.emission_words),
+                                           .attributes = pass.write(octree.voxel_attributes),
+                                           .max_fragments = pass.readWrite(attributes.max_fragments),
+                                           .voxel_count = octree.voxel_count,
+                                           .has_emission = emission ? 1U : 0U,
+                                           .sum_shift = attributes.sum_shift});
     }
     if (emission)
     {
@@ -395,14 +392,12 @@ void voxelizeEmission(vk::FrameGraph& graph, const VoxelizeJob& job, AttributeBu
     const AttributeSums sums = sumsOf(attributes, octree);
     walkAll(graph, {job, RasterMode::Emission, &sums});
     vk::Pass pass = graph.addPass(gpu::voxelize::ResolveEmission{});
-    gpu::ResolveEmissionParams params{};
-    params.sums = pass.read(attributes.sums);
-    params.emission_sums = pass.read(attributes.emission_sums);
-    params.emission_words = pass.read(octree.emission_words);
-    params.emission = pass.write(octree.emission);
-    params.voxel_count = octree.voxel_count;
-    params.sum_shift = attributes.sum_shift;
-    pass.dispatch(octree.voxel_count, params);
+    pass.dispatch(octree.voxel_count, {.sums = pass.read(attributes.sums),
+                                       .emission_sums = pass.read(attributes.emission_sums),
+                                       .emission_words = pass.read(octree.emission_words),
+                                       .emission = pass.write(octree.emission),
+                                       .voxel_count = octree.voxel_count,
+                                       .sum_shift = attributes.sum_shift});
 }
 
 } // namespace zvo

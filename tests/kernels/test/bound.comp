@@ -3,14 +3,12 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "params.h"
+
+GPU_ENTRY(CopyParams, GPU_NO_CONSTANTS);
+layout(local_size_x = 32) in;
+
 #include "lib/bound.glsl"
 #include "lib/dispatch.glsl"
-
-layout(local_size_x = 32) in;
-layout(push_constant, scalar) uniform Params
-{
-    CopyParams params;
-};
 
 #ifdef BOUND
 TEXELS_1(0, source);

@@ -4,17 +4,12 @@
 #extension GL_GOOGLE_include_directive : require
 #include "insert_bricks.h"
 #include "shared/bricks.h"
+
+GPU_ENTRY(InsertBricksParams, TEST_INSERT_BRICKS_CONSTANTS);
+layout(local_size_x = 64) in;
+
 #include "lib/bound.glsl"
 #include "lib/dispatch.glsl"
-
-layout(constant_id = 0) const bool kWideKeys = false; // the octree has more than kNarrowLevelsMax levels
-layout(constant_id = 1) const bool kFind = false; // look for keys of an earlier dispatch instead
-
-layout(local_size_x = 64) in;
-layout(push_constant, scalar) uniform Params
-{
-    InsertBricksParams params;
-};
 
 #define BRICKS_BINDING 0
 #include "lib/bricks.glsl"

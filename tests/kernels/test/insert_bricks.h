@@ -14,10 +14,10 @@ struct InsertBricksParams // push constants of test/insert_bricks
     uint count;
     uint brick_mask;
 };
-GPU_KERNEL_BEGIN(test, insert_bricks, InsertBricks, InsertBricksParams)
-    GPU_CONSTANT(bool, wide_keys, false)
-    GPU_CONSTANT(bool, find, false)
-GPU_KERNEL_END
+#define TEST_INSERT_BRICKS_CONSTANTS(CONSTANT)                                                                         \
+    CONSTANT(0, bool, wide_keys, kWideKeys, false) /* the octree has more than kNarrowLevelsMax levels */              \
+    CONSTANT(1, bool, find, kFind, false)          /* look for keys of an earlier dispatch instead */
+GPU_KERNEL(test, insert_bricks, InsertBricks, InsertBricksParams, TEST_INSERT_BRICKS_CONSTANTS)
 
 GPU_NAMESPACE_END
 

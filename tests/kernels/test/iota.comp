@@ -3,13 +3,11 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "params.h"
-#include "lib/dispatch.glsl"
 
+GPU_ENTRY(FillParams, GPU_NO_CONSTANTS);
 layout(local_size_x = 64) in;
-layout(push_constant, scalar) uniform Params
-{
-    FillParams params;
-};
+
+#include "lib/dispatch.glsl"
 
 void main()
 {

@@ -4,11 +4,8 @@
 #extension GL_GOOGLE_include_directive : require
 #include "params.h"
 
+GPU_ENTRY(LayoutParams, GPU_NO_CONSTANTS);
 layout(local_size_x = 4, local_size_y = 2, local_size_z = 3) in;
-layout(push_constant, scalar) uniform Params
-{
-    LayoutParams params;
-};
 
 GPU_BUFFER(Sample, 8);
 

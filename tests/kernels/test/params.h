@@ -12,14 +12,14 @@ struct FillParams // push constants
     GPU_PTR(uint) values; // [count]
     uint count;           // an odd number of words, so that the struct ends with padding
 };
-GPU_KERNEL(test, iota, Iota, FillParams)
-GPU_KERNEL(test, race, Race, FillParams)
-GPU_KERNEL(test, reversed, Reversed, FillParams)
-GPU_KERNEL_BEGIN(test, specialized, Specialized, FillParams)
-    GPU_CONSTANT(uint, local_size_x, 1u)
-    GPU_CONSTANT(uint, value, 7u)
-    GPU_CONSTANT(bool, flag, false)
-GPU_KERNEL_END
+GPU_KERNEL(test, iota, Iota, FillParams, GPU_NO_CONSTANTS)
+GPU_KERNEL(test, race, Race, FillParams, GPU_NO_CONSTANTS)
+GPU_KERNEL(test, reversed, Reversed, FillParams, GPU_NO_CONSTANTS)
+#define TEST_SPECIALIZED_CONSTANTS(CONSTANT)                                                                           \
+    CONSTANT(0, uint, local_size_x, kLocalSizeX, 1u)                                                                   \
+    CONSTANT(1, uint, value, kValue, 7u)                                                                               \
+    CONSTANT(2, bool, flag, kFlag, false)
+GPU_KERNEL(test, specialized, Specialized, FillParams, TEST_SPECIALIZED_CONSTANTS)
 
 struct CopyParams // push constants
 {
@@ -28,9 +28,9 @@ struct CopyParams // push constants
     uint count;
     uint factor;
 };
-GPU_KERNEL(test, bound, Bound, CopyParams)
-GPU_KERNEL(test, branch, Branch, CopyParams)
-GPU_KERNEL(test, scale, Scale, CopyParams)
+GPU_KERNEL(test, bound, Bound, CopyParams, GPU_NO_CONSTANTS)
+GPU_KERNEL(test, branch, Branch, CopyParams, GPU_NO_CONSTANTS)
+GPU_KERNEL(test, scale, Scale, CopyParams, GPU_NO_CONSTANTS)
 
 const uint kBoundMark = 1u << 30; // what the bound forms of test/bound and test/reached add
 
@@ -47,14 +47,14 @@ struct ReachedParams // push constants
     uint count;
     uint padding;
 };
-GPU_KERNEL(test, reached, Reached, ReachedParams)
+GPU_KERNEL(test, reached, Reached, ReachedParams, GPU_NO_CONSTANTS)
 
 struct WriteArgsParams // push constants
 {
     GPU_PTR(DispatchArgs) args; // [1]
     uint groups;
 };
-GPU_KERNEL(test, write_args, WriteArgs, WriteArgsParams)
+GPU_KERNEL(test, write_args, WriteArgs, WriteArgsParams, GPU_NO_CONSTANTS)
 
 struct Sample // every kind of member; no padding at its end, which GLSL would use for the next member
 {
@@ -71,9 +71,9 @@ struct LayoutParams // push constants
     Sample a;
     float tail;
 };
-GPU_KERNEL(test, layout, Layout, LayoutParams)
+GPU_KERNEL(test, layout, Layout, LayoutParams, GPU_NO_CONSTANTS)
 
-GPU_KERNEL(test, no_params, NoParams, void)
+GPU_KERNEL(test, no_params, NoParams, void, GPU_NO_CONSTANTS)
 
 GPU_NAMESPACE_END
 

@@ -3,14 +3,12 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "params.h"
+
+GPU_ENTRY(ReachedParams, GPU_NO_CONSTANTS);
+layout(local_size_x = 32) in;
+
 #include "lib/bound.glsl"
 #include "lib/dispatch.glsl"
-
-layout(local_size_x = 32) in;
-layout(push_constant, scalar) uniform Params
-{
-    ReachedParams params;
-};
 
 #ifdef BOUND
 TEXELS_3(0, triples);

@@ -3,13 +3,11 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "params.h"
-#include "lib/dispatch.glsl"
 
+GPU_ENTRY(CopyParams, GPU_NO_CONSTANTS);
 layout(local_size_x = 32) in;
-layout(push_constant, scalar) uniform Params
-{
-    CopyParams params;
-};
+
+#include "lib/dispatch.glsl"
 
 void main()
 {

@@ -3,15 +3,11 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "params.h"
-#include "lib/dispatch.glsl"
 
+GPU_ENTRY(FillParams, TEST_SPECIALIZED_CONSTANTS);
 layout(local_size_x_id = 0) in;
-layout(constant_id = 1) const uint kValue = 7;
-layout(constant_id = 2) const bool kFlag = false;
-layout(push_constant, scalar) uniform Params
-{
-    FillParams params;
-};
+
+#include "lib/dispatch.glsl"
 
 void main()
 {

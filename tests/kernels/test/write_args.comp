@@ -5,11 +5,8 @@
 #include "params.h"
 #include "shared/gpu.h"
 
+GPU_ENTRY(WriteArgsParams, GPU_NO_CONSTANTS);
 layout(local_size_x = 1) in;
-layout(push_constant, scalar) uniform Params
-{
-    WriteArgsParams params;
-};
 
 void main()
 {
