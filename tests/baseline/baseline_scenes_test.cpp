@@ -31,9 +31,7 @@ void expectBothAreZvos(const GpuScene& scene, const Grid& grid, Coverage coverag
     EXPECT_EQ(thesis.node_count, crassin_green.node_count);
 }
 
-class BaselineScenes : public testing::TestWithParam<std::string>
-{
-};
+using BaselineScenes = testing::TestWithParam<std::string>;
 
 INSTANTIATE_TEST_SUITE_P(Scenes, BaselineScenes,
                          testing::Values("bunny_low.glb", "dragon.glb", "buddha_113k.glb", "sponza.glb", "atrium.glb",

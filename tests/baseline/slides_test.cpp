@@ -77,9 +77,7 @@ void expectZvosVoxels(const GpuScene& scene, const Grid& grid)
     }
 }
 
-class SlidesScenes : public testing::TestWithParam<std::string>
-{
-};
+using SlidesScenes = testing::TestWithParam<std::string>;
 
 INSTANTIATE_TEST_SUITE_P(Scenes, SlidesScenes, testing::ValuesIn(test::slidesScenes()), test::paramName<std::string>);
 

@@ -168,9 +168,7 @@ std::vector<ViewCamera> viewsOf(const Scene& scene)
                                center - size * glm::dvec3(0.4, 0.17, 0.05), 1.3)};
 }
 
-class SlidesTraces : public testing::TestWithParam<std::string>
-{
-};
+using SlidesTraces = testing::TestWithParam<std::string>;
 
 INSTANTIATE_TEST_SUITE_P(Scenes, SlidesTraces, testing::ValuesIn(test::slidesScenes()), test::paramName<std::string>);
 

@@ -41,9 +41,7 @@ void expectEqualsOracle(const Scene& scene, const Grid& grid, const ThesisWay& w
     test::expectSameCodes(thesisCodes(uploaded(scene), grid, way), oracle::voxelize(scene, grid, way.coverage).codes);
 }
 
-class ThesisBothCoverages : public testing::TestWithParam<Coverage>
-{
-};
+using ThesisBothCoverages = testing::TestWithParam<Coverage>;
 
 INSTANTIATE_TEST_SUITE_P(Coverages, ThesisBothCoverages, testing::Values(Coverage::Conservative, Coverage::Thin),
                          test::paramName<Coverage>);

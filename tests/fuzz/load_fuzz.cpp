@@ -7,11 +7,11 @@
 #include "core/scene/animation.h"
 #include "fuzz/gltf_mutator.h"
 #include "fuzz/mesh_mutator.h"
+#include "fuzz/require.h"
 #include "io/image/image_io.h"
 #include "io/scene/load_scene.h"
 #include "support/scene_check.h"
 #include "support/temp_dir.h"
-#include "zvo/error.h"
 
 #include <algorithm>
 #include <cmath>
@@ -20,9 +20,6 @@
 #include <memory>
 #include <optional>
 #include <string>
-
-// libFuzzer's own mutation, for custom mutators.
-extern "C" std::size_t LLVMFuzzerMutate(std::uint8_t* data, std::size_t size, std::size_t size_max);
 
 namespace zvo::test
 {
@@ -36,15 +33,6 @@ constexpr std::uint32_t kDepth = 4; // 16^3
 constexpr std::uint64_t kTrianglesMax = 2000;
 constexpr std::size_t kInstancesMax = 200;
 constexpr std::uint64_t kTexelsMax = 1U << 14U;
-
-void require(bool condition, const char* what)
-{
-    if (!condition)
-    {
-        std::fprintf(stderr, "load_fuzz: %s\n", what);
-        std::abort();
-    }
-}
 
 /// A folder with the input and a few files to which it may refer.
 class Folder
@@ -75,18 +63,12 @@ std::unique_ptr<Session> g_session;
 
 std::optional<Scene> loadInput(std::span<const std::uint8_t> input)
 {
-    try
-    {
-        const std::filesystem::path path = g_session->folder.write(input);
-        return loadScene(std::span(&path, 1), {.every_animation = true});
-    }
-    catch (const Error& error)
-    {
-        const std::string message = error.what();
-        require(error.code() == ErrorCode::Input, "an error of the loader that does not blame the input");
-        require(message.find_first_of("\n\r\t") == std::string::npos, "a message of more than one line");
-        return std::nullopt;
-    }
+    return readOrRefused(
+        [&]
+        {
+            const std::filesystem::path path = g_session->folder.write(input);
+            return loadScene(std::span(&path, 1), {.every_animation = true});
+        });
 }
 
 /// Whether a pose differs from the scene at rest.
@@ -158,8 +140,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     {
         return 0;
     }
-    const std::string fault = sceneFault(*scene);
-    require(fault.empty(), fault.c_str());
+    requireNoFault(sceneFault(*scene));
     if (!isSmall(*scene))
     {
         return 0;

@@ -4,10 +4,10 @@
 // tree's attributes. ZVO_FUZZ_SEEDS names a folder into which the trees of the tests are written as seeds.
 #include "core/base/kernels.h"
 #include "core/file/zvo_file.h"
+#include "fuzz/require.h"
 #include "fuzz/tree_mutator.h"
 #include "support/tree_probe.h"
 #include "support/tree_samples.h"
-#include "zvo/error.h"
 
 #include <algorithm>
 #include <cstdio>
@@ -17,9 +17,6 @@
 #include <optional>
 #include <string>
 
-// libFuzzer's own mutation, for custom mutators.
-extern "C" std::size_t LLVMFuzzerMutate(std::uint8_t* data, std::size_t size, std::size_t size_max);
-
 namespace zvo::test
 {
 
@@ -27,15 +24,6 @@ namespace
 {
 
 constexpr std::uint64_t kVoxelsMax = 1U << 16U; // larger trees only take more time on the host
-
-void require(bool condition, const char* what)
-{
-    if (!condition)
-    {
-        std::fprintf(stderr, "tree_fuzz: %s\n", what);
-        std::abort();
-    }
-}
 
 std::unique_ptr<vk::HeadlessDevice> g_device; // null: nothing is traced
 std::unique_ptr<TreeProbe> g_probe;           // on it
@@ -54,26 +42,6 @@ void writeSeeds(const std::filesystem::path& folder)
         std::ofstream(folder / sample.name, std::ios::binary)
             .write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
     }
-}
-
-std::optional<ZvoFile> readInput(std::span<const std::byte> input)
-{
-    try
-    {
-        return readZvo(input, "input.zvo");
-    }
-    catch (const Error& error)
-    {
-        const std::string message = error.what();
-        require(error.code() == ErrorCode::Input, "an error of the reader that does not blame the input");
-        require(message.find_first_of("\n\r\t") == std::string::npos, "a message of more than one line");
-        return std::nullopt;
-    }
-}
-
-void requireNoFault(const std::string& fault)
-{
-    require(fault.empty(), fault.c_str());
 }
 
 } // namespace
@@ -104,7 +72,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
 {
     using namespace zvo::test;
     const std::span<const std::byte> input = std::as_bytes(std::span(data, size));
-    const std::optional<zvo::ZvoFile> file = readInput(input);
+    const std::optional<zvo::ZvoFile> file = readOrRefused([&] { return zvo::readZvo(input, "input.zvo"); });
     if (!file)
     {
         return 0;

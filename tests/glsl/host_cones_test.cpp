@@ -1,14 +1,11 @@
 // SPDX-License-Identifier: MIT
 // What a host's kernel finds through cones by zvo/trace.glsl, against known answers and many rays.
 #include "core/dynamic/dynamic_octree.h"
-#include "core/frame/frame_renderer.h"
-#include "core/radiance/kept_light_table.h"
-#include "core/tree/tree_table.h"
 #include "glsl/host_device.h"
+#include "glsl/host_light.h"
 #include "oracle/morton.h"
 #include "support/dags.h"
 #include "support/dynamic_updates.h"
-#include "support/kept_light.h"
 #include "support/lit_voxels.h"
 #include "support/octree_contents.h"
 #include "support/scenes.h"
@@ -72,59 +69,17 @@ struct CoveragePush
 const LitVoxel kGreyWall = {{}, glm::uvec3(188), glm::vec3(0.0F)};
 
 // Light that is kept on a tree's voxels, below a sky of one radiance.
-class LightOfCones
+struct LightOfCones : test::HostLight
 {
-public:
     LightOfCones(const DeviceTree& tree, const glm::vec3& sky, const ViewCamera& view, std::uint32_t frames)
-        : m_sky(deviceOfHosts().device(), {4, 2, std::vector(8, sky)}, 0.0, 1.0), m_tracer(deviceOfHosts().device())
+        : HostLight(tree, test::skyOf(sky), view, frames)
     {
-        m_sky.setSun({});
-        m_tracer.resize(64, 64);
-        const TraceCamera camera = traceCamera(view, tree.grid, 64);
-        for (std::uint32_t i = 0; i < frames; ++i)
-        {
-            deviceOfHosts().run(
-                [&](vk::FrameGraph& graph) {
-                    m_tracer.addSample(graph, {tree, camera, &m_sky}, test::cachedOptions());
-                });
-        }
     }
 
     std::vector<Found> through(const DeviceTree& tree, const std::vector<Cone>& cones, std::uint32_t rays)
     {
-        const gpu::KeptLightTable kept = keptLightTable(m_tracer.cache(), m_sky);
-        const auto kept_table = deviceOfHosts().makeBuffer<gpu::KeptLightTable>("kept light", std::vector{kept});
-        const auto tree_table = deviceOfHosts().makeBuffer<gpu::TreeTable>("tree", std::vector{treeTable(tree)});
-        const auto given = deviceOfHosts().makeBuffer("cones", std::span<const Cone>(cones));
-        vk::BufferOf<Found> results(deviceOfHosts().device(), "results", cones.size());
-        deviceOfHosts().run(
-            [&](vk::FrameGraph& graph)
-            {
-                vk::UntypedPass pass = graph.addPass("host/cones");
-                pass.read(tree.nodes);
-                pass.read(tree.voxel_attributes);
-                pass.read(tree.node_attributes);
-                pass.read(tree.emission_words);
-                pass.read(tree.emission);
-                pass.read(tree.lists.before);
-                pass.read(tree.lists.voxels_before_leaf);
-                pass.read(tree.overlays.ranks);
-                pass.read(m_tracer.cache().faces());
-                (void)m_sky.read(pass);
-                const ConesPush push = {pass.read(kept_table),
-                                        pass.read(tree_table),
-                                        pass.read(given),
-                                        pass.write(results),
-                                        static_cast<gpu::uint>(cones.size()),
-                                        rays};
-                pass.dispatch(cones.size(), push);
-            });
-        return deviceOfHosts().download(results);
+        return run<ConesPush, Found>("host/cones", tree, table(), cones, rays);
     }
-
-private:
-    DeviceEnvironment m_sky;
-    FrameRenderer m_tracer;
 };
 
 // The aperture whose cone is so wide at a distance.
@@ -208,15 +163,7 @@ TEST(HostCones, HaveTheLightOfAllBouncesInAGlowingRoom)
     {
         const std::uint32_t edge = 1U << depth;
         const std::uint32_t thickness = depth == 3 ? 1 : 4;
-        std::vector<LitVoxel> voxels;
-        test::addBox(voxels, glm::uvec3(0), glm::uvec3(edge), wall);
-        std::erase_if(voxels,
-                      [&](const LitVoxel& v)
-                      {
-                          return glm::all(glm::greaterThanEqual(v.cell, glm::uvec3(thickness))) &&
-                                 glm::all(glm::lessThan(v.cell, glm::uvec3(edge - thickness)));
-                      });
-        const DeviceTree tree = test::litTree(deviceOfHosts(), voxels, depth);
+        const DeviceTree tree = test::litTree(deviceOfHosts(), test::roomOf(wall, edge, thickness), depth);
         const glm::vec3 middle(0.52F * static_cast<float>(edge));
         LightOfCones light(tree, glm::vec3(9.0F),
                            ViewCamera::lookAt(glm::dvec3(middle), glm::dvec3(middle) + glm::dvec3(1, 0.3, 0.2), 2.5),

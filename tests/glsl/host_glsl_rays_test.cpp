@@ -14,6 +14,7 @@
 #include <array>
 #include <bit>
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <optional>
 #include <random>
@@ -146,9 +147,8 @@ TEST(HostGlsl, WorldRaysHitWhatEveryVoxelAskedOnItsOwnSays)
         const oracle::VoxelTracer tracer(codes, depth);
         const oracle::VoxelTracer block_tracer(blocks, depth - 2);
         const std::vector<WorldRay> rays = worldRays(grid, codes, kCount);
-        for (const DeviceTree* shown : std::array<const DeviceTree*, 2>{&octree, &dag})
+        for (const DeviceTree& tree : {std::cref(octree), std::cref(dag)})
         {
-            const DeviceTree& tree = *shown;
             const std::vector<Met> mets = meet(tree, rays, 4.04F * grid.voxel_size);
             const bool is_exact =
                 deviceOfHosts().device().report().type == "cpu"; // others need not round quotients correctly
@@ -227,11 +227,7 @@ TEST(HostGlsl, UnfinishedRaysResumeInTwoTreesAtOnce)
     const DeviceTree octree = octreeWith(shallow, AttributeFormat::Bytes8);
     const DeviceTree dag = dagWith(deep, AttributeFormat::Bytes8);
     const std::array<const DeviceTree*, 2> trees = {&dag, &octree};
-    std::vector<gpu::Ray> rays;
-    for (std::uint32_t i = 0; i < 2049; ++i)
-    {
-        rays.push_back(test::deviceRay(test::pickRay(random, dag.grid.rootResolution(), deep.codes)));
-    }
+    const std::vector<gpu::Ray> rays = test::pickRays(random, dag.grid.rootResolution(), deep.codes, 2049);
     const std::array tables = {tableOf(dag), tableOf(octree)};
     const vk::BufferOf<gpu::Ray> ray_buffer = deviceOfHosts().makeBuffer("rays", std::span<const gpu::Ray>(rays));
     vk::BufferOf<Both> results(deviceOfHosts().device(), "results", rays.size());

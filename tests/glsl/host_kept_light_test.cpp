@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What a host's kernel finds of kept light by zvo/trace.glsl, against known answers and zvo's own pictures.
-#include "core/frame/frame_renderer.h"
-#include "core/radiance/kept_light_table.h"
-#include "core/tree/tree_table.h"
 #include "glsl/host_device.h"
-#include "support/kept_light.h"
+#include "glsl/host_light.h"
 #include "support/lit_voxels.h"
 
 #include <gtest/gtest.h>
@@ -22,6 +19,7 @@ namespace
 using test::deviceOfHosts;
 
 using test::LitVoxel;
+using test::skyOf;
 
 // The structs of tests/glsl/host/kept_light.comp.
 struct Place
@@ -51,71 +49,32 @@ struct Push
     gpu::uint seed;
 };
 
-DeviceEnvironment skyOf(const glm::vec3& radiance, const Sun& sun = {})
-{
-    DeviceEnvironment sky(deviceOfHosts().device(), {4, 2, std::vector(8, radiance)}, 0.0, 1.0);
-    sky.setSun(sun);
-    return sky;
-}
-
 // Voxels with the light that is kept on them.
-struct Lit
+struct Lit : test::HostLight
 {
     Lit(const std::vector<LitVoxel>& voxels, std::uint32_t depth, DeviceEnvironment&& outside, const ViewCamera& view,
         std::uint32_t frames)
-        : tree(test::litTree(deviceOfHosts(), voxels, depth)), environment(std::move(outside)),
-          tracer(deviceOfHosts().device())
+        : Lit(test::litTree(deviceOfHosts(), voxels, depth), std::move(outside), view, frames)
     {
-        tracer.resize(64, 64);
-        const TraceCamera camera = traceCamera(view, tree.grid, 64);
-        for (std::uint32_t i = 0; i < frames; ++i)
-        {
-            deviceOfHosts().run(
-                [&](vk::FrameGraph& graph) {
-                    tracer.addSample(graph, {tree, camera, &environment}, test::cachedOptions());
-                });
-        }
+    }
+
+    Lit(DeviceTree&& lit, DeviceEnvironment&& outside, const ViewCamera& view, std::uint32_t frames)
+        : HostLight(lit, std::move(outside), view, frames), tree(std::move(lit))
+    {
     }
 
     std::vector<Light> at(const std::vector<Place>& places, std::uint32_t rays = 256, float reach = 1e30F)
     {
-        return at(places, keptLightTable(tracer.cache(), environment), rays, reach);
+        return at(places, table(), rays, reach);
     }
 
     std::vector<Light> at(const std::vector<Place>& places, const gpu::KeptLightTable& kept, std::uint32_t rays,
                           float reach)
     {
-        const auto kept_table = deviceOfHosts().makeBuffer<gpu::KeptLightTable>("kept light", std::vector{kept});
-        const auto tree_table = deviceOfHosts().makeBuffer<gpu::TreeTable>("tree", std::vector{treeTable(tree)});
-        const auto given = deviceOfHosts().makeBuffer("places", std::span<const Place>(places));
-        vk::BufferOf<Light> results(deviceOfHosts().device(), "results", places.size());
-        deviceOfHosts().run(
-            [&](vk::FrameGraph& graph)
-            {
-                vk::UntypedPass pass = graph.addPass("host/kept_light");
-                pass.read(tree.nodes);
-                pass.read(tree.voxel_attributes);
-                pass.read(tree.node_attributes);
-                pass.read(tree.emission_words);
-                pass.read(tree.emission);
-                pass.read(tracer.cache().faces());
-                (void)environment.read(pass);
-                const Push push = {pass.read(kept_table),
-                                   pass.read(tree_table),
-                                   pass.read(given),
-                                   pass.write(results),
-                                   static_cast<gpu::uint>(places.size()),
-                                   rays,
-                                   reach,
-                                   7};
-                pass.dispatch(places.size(), push);
-            });
-        return deviceOfHosts().download(results);
+        return run<Push, Light>("host/kept_light", tree, kept, places, rays, reach, gpu::uint{7});
     }
 
     DeviceTree tree;
-    DeviceEnvironment environment;
-    FrameRenderer tracer;
 };
 
 const LitVoxel kWhite = {{}, glm::uvec3(255), glm::vec3(0.0F)};
@@ -255,12 +214,8 @@ TEST(HostKeptLight, OfHitsIsThatOfZvosPicture)
     const ViewCamera view = ViewCamera::lookAt({13.0, 9.0, 13.5}, {5.0, 5.0, 5.0}, 1.2);
     Lit lit(voxels, 4, skyOf(glm::vec3(0.0F)), view, 300);
     lit.tracer.beginPicture(test::cachedOptions());
-    constexpr std::uint32_t kEdge = 64;
-    const TraceCamera camera = traceCamera(view, lit.tree.grid, kEdge);
-    deviceOfHosts().run(
-        [&](vk::FrameGraph& graph) {
-            lit.tracer.addSample(graph, {lit.tree, camera, &lit.environment}, test::cachedOptions());
-        });
+    constexpr std::uint32_t kEdge = Lit::kEdge;
+    lit.addSample(lit.tree, view);
     const SampledPicture sampled = lit.tracer.samples(test::cachedOptions());
     const HdrImage picture = pictureOf(deviceOfHosts().download(sampled.sums), kEdge, kEdge, 1);
     std::vector<Place> places;

@@ -13,12 +13,6 @@
 namespace zvo::test
 {
 
-struct CodeSet
-{
-    std::uint32_t depth;
-    Codes codes;
-};
-
 /// With attributes and emission, if format has any.
 DeviceTree octreeWith(const CodeSet& set, AttributeFormat format);
 DeviceTree dagWith(const CodeSet& set, AttributeFormat format, std::uint32_t entries_per_word = 0);

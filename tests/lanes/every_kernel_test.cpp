@@ -34,10 +34,10 @@ namespace zvo
 namespace
 {
 
-using test::addNames;
 using test::device;
 using test::keepLight;
-using test::KernelNames;
+using test::noteKernels;
+using test::run;
 using test::traceForHosts;
 using test::tracePacked;
 using test::tracePaths;
@@ -60,7 +60,7 @@ std::vector<std::uint64_t> voxelCodesOf(const std::vector<test::Cell>& cells, co
 }
 
 // Deforms 70 vertices with all that a deforming mesh can have, in two instances; the second one has no skin.
-KernelNames deformVertices()
+void deformVertices()
 {
     Scene scene;
     Primitive& primitive = scene.primitives.emplace_back();
@@ -84,22 +84,19 @@ KernelNames deformVertices()
     PoseBuffers buffers(device().device(), mesh);
     vk::BufferOf<gpu::vec3> positions(device().device(), "positions", mesh.position_count);
     vk::BufferOf<gpu::vec3> normals(device().device(), "normals", mesh.normal_count);
-    KernelNames names;
-    addNames(names, device().run(
-                        [&](vk::FrameGraph& graph)
-                        {
-                            updatePose(graph, mesh, pose, buffers);
-                            deform(graph, mesh, buffers, positions, normals);
-                        }));
+    run(
+        [&](vk::FrameGraph& graph)
+        {
+            updatePose(graph, mesh, pose, buffers);
+            deform(graph, mesh, buffers, positions, normals);
+        });
     const std::vector<gpu::vec3> moved = device().download(positions);
     EXPECT_EQ(moved.at(69), gpu::vec3(172.5F, 3.5F, 5.0F)); // (69, 1, 2) * 1.25 and (0, 0.5, 0), doubled
     EXPECT_EQ(moved.at(139), gpu::vec3(69.0F, 2.0F, 2.0F)); // 1 added to y
-    return names;
 }
 
 // Averages the nodes of an octree in which voxels are some way apart.
-KernelNames averageNodesOf(const GpuScene& scene, std::uint32_t depth, std::uint64_t voxel_count,
-                           std::uint64_t distance)
+void averageNodesOf(const GpuScene& scene, std::uint32_t depth, std::uint64_t voxel_count, std::uint64_t distance)
 {
     const Grid grid{.origin = glm::vec3(0.0F), .voxel_size = 1.0F, .depth = depth};
     std::vector<test::Cell> voxels;
@@ -115,17 +112,14 @@ KernelNames averageNodesOf(const GpuScene& scene, std::uint32_t depth, std::uint
         cell.attribute = cell.level < grid.nodeLevels() ? gpu::Attribute{} : cell.attribute;
     }
     DeviceTree octree = test::octreeOf(device(), cells, grid, 1.0F);
-    KernelNames names;
-    addNames(names, device().run([&](vk::FrameGraph& graph) { averageNodes(graph, scene, octree); }));
+    run([&](vk::FrameGraph& graph) { averageNodes(graph, scene, octree); });
     EXPECT_EQ(test::difference(test::cellsOf(device(), octree), expected), "");
-    return names;
 }
 
 // Merges the scene, as an octree or a DAG, with a copy of itself that is moved by two voxels, traces pictures of it,
 // and undoes it.
-KernelNames mergeObjects(const Scene& scene, const Grid& grid, Coverage coverage, bool compressed)
+void mergeObjects(const Scene& scene, const Grid& grid, Coverage coverage, bool compressed)
 {
-    KernelNames names;
     const float emission_scale = brightestEmission(scene);
     const GpuScene gpu_scene = uploadScene(device(), scene, true, emission_scale);
     BuildOptions build{coverage};
@@ -156,42 +150,38 @@ KernelNames mergeObjects(const Scene& scene, const Grid& grid, Coverage coverage
     do
     {
         const std::uint64_t frame = octree.beginFrame();
-        addNames(names, device().run([&](vk::FrameGraph& graph) { octree.update(graph); }));
+        run([&](vk::FrameGraph& graph) { octree.update(graph); });
         octree.frameDone(frame);
     } while (octree.needsUpdate());
     Scene both = scene;
     both.append(std::move(moved));
     EXPECT_EQ(voxelCodesOf(test::cellsOf(device(), octree.tree()), grid), oracle::voxelize(both, grid, coverage).codes);
 
-    KernelNames shown = tracePictures(octree.tree());
-    for (const char* kernel : {"trace/node_ranks", "trace/primary_ranks", "trace/ranks"}) // for overlays
+    tracePictures(octree.tree());
+    for (const char* kernel : {"trace/node_ranks", "trace/primary_ranks", "trace/ranks"}) // for overlays of DAGs
     {
-        EXPECT_EQ(shown.contains(kernel), compressed) << kernel;
+        EXPECT_EQ(test::hasRun(kernel), compressed) << kernel;
     }
-    names.merge(shown);
 
-    addNames(names, device().run([&](vk::FrameGraph& graph) { octree.undo(graph); }));
+    run([&](vk::FrameGraph& graph) { octree.undo(graph); });
     EXPECT_EQ(test::difference(test::cellsOf(device(), octree.tree()), before), "");
-    return names;
 }
 
 // Compresses the octree to a DAG, and that DAG again, in which nothing more can be shared.
-KernelNames compressOctree(DeviceTree octree, const CompressOptions& options)
+void compressOctree(DeviceTree octree, const CompressOptions& options)
 {
-    KernelNames names;
     const DeviceTree expected = test::svdagOf(device(), octree);
     CompressResult once = compress(device(), std::move(octree), options);
-    addNames(names, once.passes);
+    noteKernels(once.passes);
     EXPECT_EQ(once.retry_count != 0, options.table_slots != 0);
     EXPECT_EQ(test::difference(device(), once.dag, expected), "");
     const CompressResult twice = compress(device(), std::move(once.dag));
-    addNames(names, twice.passes);
+    noteKernels(twice.passes);
     EXPECT_EQ(test::difference(device(), twice.dag, expected), "");
-    return names;
 }
 
 // Makes the same DAG, joined of eight tiles.
-KernelNames joinTiles(const GpuScene& scene, const Grid& grid, Coverage coverage, const DeviceTree& octree)
+void joinTiles(const GpuScene& scene, const Grid& grid, Coverage coverage, const DeviceTree& octree)
 {
     const std::uint32_t tile_depth = grid.depth - 1;
     SvdagForest forest(device(), grid, tile_depth);
@@ -208,15 +198,12 @@ KernelNames joinTiles(const GpuScene& scene, const Grid& grid, Coverage coverage
     const std::vector<gpu::Node> expected = device().download(test::svdagOf(device(), octree).nodes);
     EXPECT_EQ(pool.size(), expected.size());
     EXPECT_TRUE(std::ranges::equal(std::as_bytes(std::span(pool)), std::as_bytes(std::span(expected))));
-    KernelNames names;
-    addNames(names, forest.passes());
-    return names;
+    noteKernels(forest.passes());
 }
 
 // Builds the octree of a scene in each form of sums of all voxels.
-KernelNames addInAllForms(const Scene& scene, const Grid& grid, Coverage coverage)
+void addInAllForms(const Scene& scene, const Grid& grid, Coverage coverage)
 {
-    KernelNames names;
     const GpuScene gpu_scene = uploadScene(device(), scene, true);
     const DeviceTree octree = buildOctree(device(), gpu_scene, grid, {coverage}).octree;
     EXPECT_EQ(voxelCodes(device(), octree), oracle::voxelize(scene, grid, coverage).codes);
@@ -230,16 +217,14 @@ KernelNames addInAllForms(const Scene& scene, const Grid& grid, Coverage coverag
         BuildOptions options = {coverage};
         options.sum_form = form;
         const BuildResult built = buildOctree(device(), gpu_scene, grid, options);
-        addNames(names, built.passes);
+        noteKernels(built.passes);
         EXPECT_EQ(test::difference(test::cellsOf(device(), built.octree), test::cellsOf(device(), octree)), "");
     }
-    return names;
 }
 
 // Builds an octree of a scene that emits nothing, with sums of mixed voxels alone and of all voxels.
-KernelNames addMixed(const Grid& grid, Coverage coverage)
+void addMixed(const Grid& grid, Coverage coverage)
 {
-    KernelNames names;
     const GpuScene dark = uploadScene(device(), test::sphereScene(glm::vec3(8.0F), 6.0F, 6), true);
     SumForm form = SumForm::on(device().device());
     std::vector<std::vector<test::Cell>> cells;
@@ -249,11 +234,10 @@ KernelNames addMixed(const Grid& grid, Coverage coverage)
         BuildOptions options = {coverage};
         options.sum_form = form;
         const BuildResult built = buildOctree(device(), dark, grid, options);
-        addNames(names, built.passes);
+        noteKernels(built.passes);
         cells.push_back(test::cellsOf(device(), built.octree));
     }
     EXPECT_EQ(test::difference(cells[0], cells[1]), "");
-    return names;
 }
 
 TEST(EveryKernel, RunsOnASmallScene)
@@ -262,14 +246,15 @@ TEST(EveryKernel, RunsOnASmallScene)
     Scene plain = scene; // has fewer variants of the raster kernels
     plain.instances.resize(1);
     const GpuScene gpu_scene = uploadScene(device(), scene, true);
-    KernelNames names = deformVertices();
+    test::forgetKernels();
+    deformVertices();
     for (std::uint32_t levels = 1; levels <= gpu::kNodeLevelsMax; ++levels)
     {
-        names.merge(averageNodesOf(gpu_scene, 2 * levels - 1, levels == 1 ? 8 : 60, 1));
+        averageNodesOf(gpu_scene, 2 * levels - 1, levels == 1 ? 8 : 60, 1);
     }
-    names.merge(averageNodesOf(gpu_scene, 2, 64, 1));
-    names.merge(averageNodesOf(gpu_scene, 8, 1000, 65));
-    names.merge(averageNodesOf(gpu_scene, 8, 200, 83'800)); // the root has 64 children
+    averageNodesOf(gpu_scene, 2, 64, 1);
+    averageNodesOf(gpu_scene, 8, 1000, 65);
+    averageNodesOf(gpu_scene, 8, 200, 83'800); // the root has 64 children
     struct Case
     {
         Coverage coverage;
@@ -290,36 +275,35 @@ TEST(EveryKernel, RunsOnASmallScene)
         const Scene& built_scene = c.pictures ? scene : plain;
         BuildResult built = buildOctree(device(), uploadScene(device(), built_scene, true), grid, {c.coverage});
         EXPECT_EQ(voxelCodes(device(), built.octree), oracle::voxelize(built_scene, grid, c.coverage).codes);
-        addNames(names, built.passes);
-        names.merge(addMixed(grid, c.coverage));
+        noteKernels(built.passes);
+        addMixed(grid, c.coverage);
         if (c.pictures)
         {
-            names.merge(addInAllForms(plain, grid, c.coverage));
-            names.merge(mergeObjects(scene, grid, c.coverage, false));
-            names.merge(tracePictures(built.octree));
-            names.merge(traceForHosts(built.octree));
-            names.merge(tracePaths(built.octree));
-            names.merge(keepLight(built.octree));
+            addInAllForms(plain, grid, c.coverage);
+            mergeObjects(scene, grid, c.coverage, false);
+            tracePictures(built.octree);
+            traceForHosts(built.octree);
+            tracePaths(built.octree);
+            keepLight(built.octree);
             const DeviceTree dag = test::svdagOf(device(), built.octree);
-            names.merge(tracePictures(dag));
-            names.merge(keepLight(dag));
+            tracePictures(dag);
+            keepLight(dag);
             const Grid deep{.origin = grid.origin, .voxel_size = grid.voxel_size, .depth = kDepthOfRankSums};
-            names.merge(mergeObjects(scene, deep, c.coverage, true));
-            names.merge(
-                tracePictures(test::svdagOf(device(), buildOctree(device(), gpu_scene, deep, {c.coverage}).octree)));
+            mergeObjects(scene, deep, c.coverage, true);
+            tracePictures(test::svdagOf(device(), buildOctree(device(), gpu_scene, deep, {c.coverage}).octree));
             for (const AttributeFormat format : {AttributeFormat::Bytes4, AttributeFormat::Blocks})
             {
-                names.merge(tracePacked(buildOctree(device(), gpu_scene, grid, {c.coverage}), format));
+                tracePacked(buildOctree(device(), gpu_scene, grid, {c.coverage}), format);
             }
         }
         if (c.depth == 7)
         {
-            names.merge(joinTiles(gpu_scene, grid, c.coverage, built.octree));
+            joinTiles(gpu_scene, grid, c.coverage, built.octree);
         }
-        names.merge(compressOctree(std::move(built.octree), {.table_slots = c.table_slots}));
+        compressOctree(std::move(built.octree), {.table_slots = c.table_slots});
     }
-    names.merge(test::scalePictures());
-    test::expectAllRan(names, false);
+    test::scalePictures();
+    test::expectAllRan(false);
 }
 
 } // namespace

@@ -8,18 +8,42 @@
 
 #include <gtest/gtest.h>
 
+#include <set>
+
 namespace zvo::test
 {
 
-void addNames(KernelNames& names, const std::vector<vk::PassTime>& passes)
+namespace
+{
+
+std::set<std::string> g_names;
+
+} // namespace
+
+void run(const std::function<void(vk::FrameGraph&)>& record)
+{
+    noteKernels(device().run(record));
+}
+
+void noteKernels(const std::vector<vk::PassTime>& passes)
 {
     for (const vk::PassTime& pass : passes)
     {
-        names.insert(pass.name);
+        g_names.insert(pass.name);
     }
 }
 
-void expectAllRan(const KernelNames& names, bool of_brushes)
+bool hasRun(const std::string& name)
+{
+    return g_names.contains(name);
+}
+
+void forgetKernels()
+{
+    g_names.clear();
+}
+
+void expectAllRan(bool of_brushes)
 {
     for (const vk::EmbeddedKernel& kernel : zvoKernels())
     {
@@ -27,7 +51,7 @@ void expectAllRan(const KernelNames& names, bool of_brushes)
         const bool can_run = SumForm::on(device().device()).int64 || !name.ends_with("_int64");
         if (can_run && name.starts_with("edit/") == of_brushes)
         {
-            EXPECT_TRUE(names.contains(name)) << name << " did not run";
+            EXPECT_TRUE(hasRun(name)) << name << " did not run";
         }
     }
 }

@@ -19,13 +19,12 @@
 namespace zvo::test
 {
 
-KernelNames tracePictures(const DeviceTree& tree)
+void tracePictures(const DeviceTree& tree)
 {
-    KernelNames names;
     const ViewCamera view = ViewCamera::lookAt({25.0, 22.0, 31.0}, {8.0, 8.0, 8.0}, 0.7);
     NodePaths paths(device().device(), tree.isDag());
     TraceBuffers buffers(device().device(), 17, 9);
-    addNames(names, device().run([&](vk::FrameGraph& graph) { buildNodePaths(graph, tree, paths); }));
+    run([&](vk::FrameGraph& graph) { buildNodePaths(graph, tree, paths); });
     for (const bool beam : {true, false})
     {
         if (tree.isDag() && !beam)
@@ -39,34 +38,29 @@ KernelNames tracePictures(const DeviceTree& tree)
             options.occlusion_rays = 2;
             options.beam = beam;
             const TraceCamera camera = traceCamera(view, tree.grid, buffers.height);
-            addNames(names,
-                     device().run([&](vk::FrameGraph& graph) { trace(graph, tree, paths, camera, options, buffers); }));
+            run([&](vk::FrameGraph& graph) { trace(graph, tree, paths, camera, options, buffers); });
         }
     }
     TraceOptions coarse;
     coarse.detail_level = 2;
     const TraceCamera camera = traceCamera(view, tree.grid, buffers.height);
-    addNames(names, device().run([&](vk::FrameGraph& graph) { trace(graph, tree, paths, camera, coarse, buffers); }));
+    run([&](vk::FrameGraph& graph) { trace(graph, tree, paths, camera, coarse, buffers); });
     vk::BufferOf<gpu::PixelReport> report(device().device(), "report", 1);
-    addNames(names, device().run(
-                        [&](vk::FrameGraph& graph) {
-                            inspectPixel(graph, tree, camera, coarse, buffers, {8, 4}, report);
-                        }));
+    run([&](vk::FrameGraph& graph) { inspectPixel(graph, tree, camera, coarse, buffers, {8, 4}, report); });
     const gpu::Ray ray = {{1.1F, 1.2F, 1.3F}, 0.0F, {-1.0F, -2.0F, 3.0F}, 4.0F};
     const vk::BufferOf<gpu::Ray> rays = device().makeBuffer<gpu::Ray>("rays", std::vector<gpu::Ray>(3, ray));
     vk::BufferOf<gpu::Hit> hits(device().device(), "hits", rays.count());
     vk::BufferOf<gpu::DispatchArgs> rounds(device().device(), "rounds", gpu::kTraceRoundsMax);
     vk::BufferOf<gpu::TraceStatus> status(device().device(), "status", 1);
-    addNames(names, device().run(
-                        [&](vk::FrameGraph& graph)
-                        {
-                            graph.fill(status, 0);
-                            traceRays(graph, tree, rays, hits, rounds, status, {});
-                        }));
-    return names;
+    run(
+        [&](vk::FrameGraph& graph)
+        {
+            graph.fill(status, 0);
+            traceRays(graph, tree, rays, hits, rounds, status, {});
+        });
 }
 
-KernelNames tracePaths(const DeviceTree& tree)
+void tracePaths(const DeviceTree& tree)
 {
     DeviceEnvironment sky(device().device());
     PathTracer tracer(device().device());
@@ -76,34 +70,31 @@ KernelNames tracePaths(const DeviceTree& tree)
     const ViewCamera view = ViewCamera::lookAt({25.0, 22.0, 31.0}, {8.0, 8.0, 8.0}, 0.7);
     const TraceCamera camera = traceCamera(view, tree.grid, 10);
     vk::BufferOf<gpu::uint> picture(device().device(), "picture", 90);
-    KernelNames names;
     for (const PathForm form : {PathForm::Stages, PathForm::OneKernel})
     {
         tracer.resize(9, 10, form);
         for (const bool features : {false, true, true})
         {
             tracer.forget();
-            addNames(names, device().run(
-                                [&](vk::FrameGraph& graph)
-                                {
-                                    tracer.addSample(graph, tree, sky, camera, {.bounces = 1, .features = features});
-                                    if (features)
-                                    {
-                                        denoiser.denoise(graph, tracer.guided(), 4);
-                                    }
-                                    developer.develop(graph, tracer.picture(), TexelFormat::Rgba8, {}, picture);
-                                }));
+            run(
+                [&](vk::FrameGraph& graph)
+                {
+                    tracer.addSample(graph, tree, sky, camera, {.bounces = 1, .features = features});
+                    if (features)
+                    {
+                        denoiser.denoise(graph, tracer.guided(), 4);
+                    }
+                    developer.develop(graph, tracer.picture(), TexelFormat::Rgba8, {}, picture);
+                });
         }
     }
-    return names;
 }
 
-KernelNames keepLight(const DeviceTree& tree)
+void keepLight(const DeviceTree& tree)
 {
     DeviceEnvironment sky(device().device());
     FrameRenderer tracer(device().device());
     const ViewCamera view = ViewCamera::lookAt({25.0, 22.0, 31.0}, {8.0, 8.0, 8.0}, 0.7);
-    KernelNames names;
     for (const std::uint32_t height : {10U, 11U})
     {
         tracer.resize(9, height);
@@ -112,27 +103,20 @@ KernelNames keepLight(const DeviceTree& tree)
                                       .radiance = {.faces = 100}};
         for (std::uint32_t frame = 0; frame < 2; ++frame)
         {
-            addNames(names, device().run(
-                                [&](vk::FrameGraph& graph) {
-                                    tracer.addSample(graph, {tree, camera, &sky}, options);
-                                }));
+            run([&](vk::FrameGraph& graph) { tracer.addSample(graph, {tree, camera, &sky}, options); });
         }
     }
-    return names;
 }
 
-KernelNames tracePacked(BuildResult built, AttributeFormat format)
+void tracePacked(BuildResult built, AttributeFormat format)
 {
-    KernelNames names;
-    addNames(names, packTree(device(), format, built.octree));
+    noteKernels(packTree(device(), format, built.octree));
     EXPECT_EQ(built.octree.attributeFormat(), format);
-    names.merge(tracePictures(built.octree));
-    return names;
+    tracePictures(built.octree);
 }
 
-KernelNames traceForHosts(const DeviceTree& tree)
+void traceForHosts(const DeviceTree& tree)
 {
-    KernelNames names;
     ViewCamera view = ViewCamera::lookAt({25.0, 22.0, 31.0}, {8.0, 8.0, 8.0}, 0.7);
     view.half_height = 12.0;
     const NodePaths paths(device().device(), tree.isDag()); // not used
@@ -152,35 +136,32 @@ KernelNames traceForHosts(const DeviceTree& tree)
             options.view = shown;
             options.beam = false;
             options.shadows = false;
-            addNames(names, device().run(
-                                [&](vk::FrameGraph& graph)
-                                {
-                                    trace(graph, tree, paths, camera, options, buffers);
-                                    traceDepth(graph, tree.grid, camera, clip, buffers, depth);
-                                }));
+            run(
+                [&](vk::FrameGraph& graph)
+                {
+                    trace(graph, tree, paths, camera, options, buffers);
+                    traceDepth(graph, tree.grid, camera, clip, buffers, depth);
+                });
         }
         const std::vector<float> depths = device().download(depth);
         EXPECT_GT(*std::ranges::max_element(depths), 0.0F);
     }
-    return names;
 }
 
-KernelNames scalePictures()
+void scalePictures()
 {
     const std::vector<gpu::uint> from = {1, 2, 3, 4, 5, 6};
     const vk::BufferOf<gpu::uint> small = device().makeBuffer<gpu::uint>("picture", from);
     vk::BufferOf<gpu::uint> wide(device().device(), "wide picture", 12);
     vk::BufferOf<gpu::uint> narrow(device().device(), "narrow picture", 2);
-    KernelNames names;
-    addNames(names, device().run(
-                        [&](vk::FrameGraph& graph)
-                        {
-                            scalePicture(graph, small, {3, 2}, wide, {6, 2});
-                            scalePicture(graph, small, {3, 2}, narrow, {1, 2});
-                        }));
+    run(
+        [&](vk::FrameGraph& graph)
+        {
+            scalePicture(graph, small, {3, 2}, wide, {6, 2});
+            scalePicture(graph, small, {3, 2}, narrow, {1, 2});
+        });
     EXPECT_EQ(device().download(wide), (std::vector<gpu::uint>{1, 1, 2, 2, 3, 3, 4, 4, 5, 5, 6, 6}));
     EXPECT_EQ(device().download(narrow), (std::vector<gpu::uint>{2, 5}));
-    return names;
 }
 
 } // namespace zvo::test

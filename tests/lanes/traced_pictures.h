@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Small pictures by all of the kernels that make some. All functions return the names of the kernels that have run.
+// Small pictures by all of the kernels that make some. All functions note the kernels that run.
 #pragma once
 
 #include "core/headless/pipeline.h"
@@ -10,21 +10,21 @@ namespace zvo::test
 {
 
 /// Traces pictures by every path of the tracer.
-KernelNames tracePictures(const DeviceTree& tree);
+void tracePictures(const DeviceTree& tree);
 
 /// Traces paths through a tree with emissive voxels, in both forms, for two pictures that are denoised.
-KernelNames tracePaths(const DeviceTree& tree);
+void tracePaths(const DeviceTree& tree);
 
 /// Keeps light on the voxels of a tree, in pictures of two sizes, of which the second is seen through cones.
-KernelNames keepLight(const DeviceTree& tree);
+void keepLight(const DeviceTree& tree);
 
 /// Traces pictures of the octree with packed attributes. Pictures of all formats are traced.
-KernelNames tracePacked(BuildResult built, AttributeFormat format);
+void tracePacked(BuildResult built, AttributeFormat format);
 
 /// Traces pictures in the texel formats of hosts' images, lit and unlit, with depth.
-KernelNames traceForHosts(const DeviceTree& tree);
+void traceForHosts(const DeviceTree& tree);
 
 /// Scales a picture of 3 x 2 pixels to twice and to a third of its width.
-KernelNames scalePictures();
+void scalePictures();
 
 } // namespace zvo::test

@@ -4,6 +4,7 @@
 #include "core/base/kernels.h"
 #include "io/gltf/gltf_loader.h"
 #include "stress/compare_coverage.h"
+#include "stress/program.h"
 #include "support/device.h"
 #include "support/scenes.h"
 
@@ -175,7 +176,7 @@ std::uint64_t checkMeshes(vk::HeadlessDevice& device)
     return differences;
 }
 
-int run(const Options& options)
+bool run(const Options& options)
 {
     vk::HeadlessDevice& device = test::sharedDevice(zvoKernels());
     std::uint64_t differences = 0;
@@ -185,10 +186,8 @@ int run(const Options& options)
         differences += checkPlaced(device, options);
     if (options.meshes)
         differences += checkMeshes(device);
-    const std::uint32_t messages = test::validationMessageCount();
-    test::destroySharedDevice();
     fmt::print("{} differences\n", differences);
-    return differences == 0 && messages == 0 ? 0 : 1;
+    return differences == 0;
 }
 
 } // namespace
@@ -204,13 +203,5 @@ int main(int argc, char** argv)
     app.add_option("--batch", options.batch, "only this batch of --shape, as a difference names it");
     app.add_flag("!--no-meshes", options.meshes, "without whole meshes");
     CLI11_PARSE(app, argc, argv);
-    try
-    {
-        return zvo::stress::run(options);
-    }
-    catch (const std::exception& error)
-    {
-        fmt::print(stderr, "check_coverage: {}\n", error.what());
-        return 2;
-    }
+    return zvo::stress::runProgram("check_coverage", [&] { return zvo::stress::run(options); });
 }

@@ -7,6 +7,7 @@
 #include "core/dynamic/dynamic_octree.h"
 #include "core/headless/pipeline.h"
 #include "core/scene/animation.h"
+#include "stress/program.h"
 #include "support/device.h"
 #include "support/materials_scene.h"
 #include "support/octree_contents.h"
@@ -226,28 +227,21 @@ private:
     std::uint64_t m_resident = 0;
 };
 
-int run(std::uint64_t frame_count)
+bool run(std::uint64_t frame_count)
 {
     const auto start = std::chrono::steady_clock::now();
-    {
-        Soak soak;
-        soak.run(frame_count);
-        const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
-        fmt::print("{} frames in {:.1f} s, {} compared, {} without room; {} KiB of the device's memory at most, {} KiB "
-                   "resident after the first periods and {} KiB in the end\n",
-                   frame_count, seconds.count(), soak.comparedCount(), soak.failedCount(), soak.peakBytes() >> 10,
-                   soak.warmResident() >> 10, residentBytes() >> 10);
-    }
-    test::destroySharedDevice();
-    if (test::validationMessageCount() != 0)
-    {
-        fmt::print("the Vulkan validation layers reported something\n");
-        return EXIT_FAILURE;
-    }
-    return EXIT_SUCCESS;
+    Soak soak;
+    soak.run(frame_count);
+    const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
+    fmt::print("{} frames in {:.1f} s, {} compared, {} without room; {} KiB of the device's memory at most, {} KiB "
+               "resident after the first periods and {} KiB in the end\n",
+               frame_count, seconds.count(), soak.comparedCount(), soak.failedCount(), soak.peakBytes() >> 10,
+               soak.warmResident() >> 10, residentBytes() >> 10);
+    return true;
 }
 
 } // namespace
+
 } // namespace zvo::stress
 
 int main(int argc, char** argv)
@@ -256,13 +250,5 @@ int main(int argc, char** argv)
     CLI::App app("A mesh that moves for a long time");
     app.add_option("--frames", frame_count, "how many frames")->capture_default_str();
     CLI11_PARSE(app, argc, argv);
-    try
-    {
-        return zvo::stress::run(frame_count);
-    }
-    catch (const std::exception& error)
-    {
-        fmt::print("zvo_dynamic_soak: {}\n", error.what());
-        return EXIT_FAILURE;
-    }
+    return zvo::stress::runProgram("zvo_dynamic_soak", [&] { return zvo::stress::run(frame_count); });
 }

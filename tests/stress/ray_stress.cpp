@@ -8,17 +8,18 @@
 #include "core/headless/pipeline.h"
 #include "core/trace/trace.h"
 #include "io/file/sha256.h"
+#include "stress/program.h"
 #include "stress/ray_judge.h"
 #include "stress/stress_rays.h"
 #include "support/device.h"
+#include "support/pictures.h"
 #include "support/scenes.h"
 #include "support/trace_rays.h"
-#include "zvo/error.h"
 
+#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cstdlib>
 #include <functional>
 #include <string_view>
@@ -30,6 +31,7 @@ namespace
 {
 
 constexpr std::uint64_t kBatch = 1U << 17;
+constexpr gpu::Hit kMiss = {0.0F, gpu::kHitMiss, gpu::uvec2(0)}; // the rest of a miss is undefined on the device
 
 struct Options
 {
@@ -85,23 +87,13 @@ void traceBatch(vk::HeadlessDevice& device, const DeviceTree& octree, std::uint6
                        device_rays[i] = rays[i].device;
                    }
                });
-    const vk::BufferOf<gpu::Ray> ray_buffer = device.makeBuffer("rays", std::span<const gpu::Ray>(device_rays));
-    vk::BufferOf<gpu::Hit> hit_buffer(device.device(), "hits", count);
-    vk::BufferOf<gpu::DispatchArgs> rounds(device.device(), "rounds", gpu::kTraceRoundsMax);
-    vk::BufferOf<gpu::TraceStatus> status(device.device(), "status", 1);
-    device.run(
-        [&](vk::FrameGraph& graph)
-        {
-            graph.fill(status, 0);
-            traceRays(graph, octree, ray_buffer, hit_buffer, rounds, status, {});
-        });
-    const std::uint32_t capped = device.download(status).at(0).capped_rays;
-    if (capped != 0)
+    test::TracedRays traced = test::traceRaysOf(device, octree, device_rays);
+    if (traced.capped_rays != 0)
     {
-        tally().wrong += capped;
-        fmt::print("WRONG: {} rays ran into the cap on iterations\n", capped);
+        tally().wrong += traced.capped_rays;
+        fmt::print("WRONG: {} rays ran into the cap on iterations\n", traced.capped_rays);
     }
-    std::vector<gpu::Hit> hits = device.download(hit_buffer);
+    std::vector<gpu::Hit>& hits = traced.hits;
     inParallel(count,
                [&](std::uint64_t first, std::uint64_t end)
                {
@@ -110,7 +102,7 @@ void traceBatch(vk::HeadlessDevice& device, const DeviceTree& octree, std::uint6
                        check(rays[i], test::unpack(hits[i]));
                        if (hits[i].index == gpu::kHitMiss)
                        {
-                           hits[i] = {0.0F, gpu::kHitMiss, gpu::uvec2(0)}; // the rest is undefined
+                           hits[i] = kMiss;
                        }
                    }
                });
@@ -203,43 +195,24 @@ void traceShells(vk::HeadlessDevice& device, const Options& options, Sha256& sum
     }
 }
 
-// The bytes of a picture's primary hits, and the most iterations of a ray.
-struct Picture
+// Primary hits, all misses of which are equal, and the most iterations of a ray.
+struct Hits
 {
     std::vector<gpu::Hit> hits;
     std::uint32_t iterations_max = 0;
 };
 
-Picture takePicture(vk::HeadlessDevice& device, const DeviceTree& octree, const TraceCamera& camera,
-                    const TraceOptions& options)
+Hits takePicture(vk::HeadlessDevice& device, const DeviceTree& octree, const TraceCamera& camera,
+                 const TraceOptions& options)
 {
-    NodePaths paths(device.device());
-    TraceBuffers buffers(device.device(), 333, 217);
-    device.run(
-        [&](vk::FrameGraph& graph)
-        {
-            graph.fill(buffers.hits, gpu::kHitMiss);
-            graph.fill(buffers.light, 0);
-            buildNodePaths(graph, octree, paths);
-            tracePrimary(graph, octree, paths, camera, options, buffers);
-        });
-    tally().wrong += device.download(buffers.status).at(0).capped_rays;
-    Picture picture{device.download(buffers.hits), 0};
-    for (gpu::Hit& hit : picture.hits)
-    {
-        if (hit.index == gpu::kHitMiss)
-        {
-            hit = {0.0F, gpu::kHitMiss, gpu::uvec2(0)};
-        }
-    }
-    for (const gpu::uint iterations : device.download(buffers.light))
-    {
-        picture.iterations_max = std::max(picture.iterations_max, iterations);
-    }
-    return picture;
+    test::Picture picture = test::takePicture(device, octree, camera, 333, 217, options);
+    tally().wrong += picture.capped_rays;
+    std::ranges::replace_if(
+        picture.hits, [](const gpu::Hit& hit) { return hit.index == gpu::kHitMiss; }, kMiss);
+    return {std::move(picture.hits), *std::ranges::max_element(picture.light)};
 }
 
-bool sameHits(const Picture& a, const Picture& b)
+bool sameHits(const Hits& a, const Hits& b)
 {
     return std::equal(a.hits.begin(), a.hits.end(), b.hits.begin(), b.hits.end(),
                       [](const gpu::Hit& x, const gpu::Hit& y)
@@ -261,13 +234,13 @@ std::uint32_t takePictures(vk::HeadlessDevice& device, const std::vector<StressT
                                        ViewCamera::lookAt(edge * glm::dvec3(90.0, 40.0, 70.0), middle, 0.012)})
         {
             const TraceCamera camera = traceCamera(view, octree.grid, 217);
-            std::optional<Picture> first;
+            std::optional<Hits> first;
             for (const bool with_beam : {false, true})
             {
                 TraceOptions options;
                 options.beam = with_beam;
                 options.view = View::Iterations;
-                Picture picture = takePicture(device, octree, camera, options);
+                Hits picture = takePicture(device, octree, camera, options);
                 ++count;
                 // Each cell on the path is left once, and entered by at most one descent for each level.
                 const std::uint32_t bound = (3 * octree.grid.rootResolution() + 1) * (octree.grid.nodeLevels() + 1);
@@ -289,7 +262,7 @@ std::uint32_t takePictures(vk::HeadlessDevice& device, const std::vector<StressT
     return count;
 }
 
-int run(const Options& options)
+bool run(const Options& options)
 {
     vk::HeadlessDevice& device = test::sharedDevice(zvoKernels());
     const std::vector<StressTree> trees = makeTrees();
@@ -303,31 +276,7 @@ int run(const Options& options)
     const std::uint32_t pictures = takePictures(device, trees, sum);
     fmt::print("{} pictures; {} wrong\n", pictures, tally().wrong.load());
     fmt::print("hits {}\n", sum.hexDigest());
-    test::destroySharedDevice();
-    if (test::validationMessageCount() != 0)
-    {
-        fmt::print("the Vulkan validation layers reported something\n");
-        return EXIT_FAILURE;
-    }
-    return tally().wrong == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
-}
-
-std::optional<Options> parse(int argc, char** argv)
-{
-    Options options;
-    for (int i = 1; i < argc; i += 2)
-    {
-        const std::string_view name = argv[i];
-        const std::string_view value = i + 1 < argc ? argv[i + 1] : "";
-        std::uint64_t* target = name == "--rays" ? &options.rays : name == "--seed" ? &options.seed : nullptr;
-        if (target == nullptr ||
-            std::from_chars(value.data(), value.data() + value.size(), *target).ptr != value.data() + value.size() ||
-            value.empty())
-        {
-            return std::nullopt;
-        }
-    }
-    return options;
+    return tally().wrong == 0;
 }
 
 } // namespace
@@ -336,19 +285,12 @@ std::optional<Options> parse(int argc, char** argv)
 
 int main(int argc, char** argv)
 {
-    const auto options = zvo::stress::parse(argc, argv);
-    if (!options)
-    {
-        fmt::print("usage: zvo_ray_stress [--rays N] [--seed S]\n");
-        return 2;
-    }
-    try
-    {
-        return zvo::stress::run(*options);
-    }
-    catch (const zvo::Error& error)
-    {
-        fmt::print("{}\n", error.what());
-        return EXIT_FAILURE;
-    }
+    zvo::stress::Options options;
+    CLI::App app("Rays, device against references");
+    app.add_option("--rays", options.rays,
+                   "how many random rays, and aimed ones; a quarter as many leave closed shells")
+        ->capture_default_str();
+    app.add_option("--seed", options.seed, "another number, other rays")->capture_default_str();
+    CLI11_PARSE(app, argc, argv);
+    return zvo::stress::runProgram("zvo_ray_stress", [&] { return zvo::stress::run(options); });
 }

@@ -4,6 +4,9 @@
 #include "core/base/kernels.h"
 #include "support/device.h"
 
+#include <span>
+#include <vector>
+
 namespace zvo::test
 {
 
@@ -11,6 +14,18 @@ namespace zvo::test
 inline vk::HeadlessDevice& device()
 {
     return sharedDevice(zvoKernels());
+}
+
+/// The same with more kernels, of which a binary has one set.
+inline vk::HeadlessDevice& deviceWith(std::span<const vk::EmbeddedKernel> more)
+{
+    static const std::vector<vk::EmbeddedKernel> kernels = [&]
+    {
+        std::vector<vk::EmbeddedKernel> all(zvoKernels().begin(), zvoKernels().end());
+        all.insert(all.end(), more.begin(), more.end());
+        return all;
+    }();
+    return sharedDevice(kernels);
 }
 
 } // namespace zvo::test

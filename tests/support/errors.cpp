@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <regex>
+
 namespace zvo::test
 {
 
@@ -21,6 +23,14 @@ std::string messageOf(const std::function<void()>& action, ErrorCode expected)
     }
     ADD_FAILURE() << "nothing was thrown";
     return {};
+}
+
+std::uint64_t bytesNeeded(const std::string& message)
+{
+    std::smatch found;
+    const bool matches = std::regex_search(message, found, std::regex("needs ([0-9]+) bytes in all"));
+    EXPECT_TRUE(matches) << message;
+    return matches ? std::stoull(found[1]) : 0;
 }
 
 void expectParts(const std::string& text, std::initializer_list<const char*> parts)

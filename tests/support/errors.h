@@ -3,6 +3,7 @@
 
 #include "zvo/error.h"
 
+#include <cstdint>
 #include <functional>
 #include <initializer_list>
 #include <string>
@@ -13,6 +14,9 @@ namespace zvo::test
 /// Returns the message of the Error that action throws. The test fails unless its code is expected and the message has
 /// one line.
 std::string messageOf(const std::function<void()>& action, ErrorCode expected);
+
+/// The bytes that the message of an Error{Memory} names; the test fails if it names none.
+std::uint64_t bytesNeeded(const std::string& message);
 
 /// The test fails for each part that is missing from text.
 void expectParts(const std::string& text, std::initializer_list<const char*> parts);

@@ -1,12 +1,25 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "vk/headless.h"
+#include "support/engine_device.h"
 
-namespace zvo::test
+#include <span>
+
+namespace zvo
+{
+
+/// The kernels of tests/core/light.
+std::span<const vk::EmbeddedKernel> lightTestKernels();
+
+namespace test
 {
 
 /// A device with the engine's kernels and those of tests/core/light.
-vk::HeadlessDevice& lightDevice();
+inline vk::HeadlessDevice& lightDevice()
+{
+    return deviceWith(lightTestKernels());
+}
 
-} // namespace zvo::test
+} // namespace test
+
+} // namespace zvo

@@ -139,14 +139,15 @@ DeviceTree litTree(vk::HeadlessDevice& device, std::vector<LitVoxel> voxels, std
     return tree;
 }
 
-std::vector<LitVoxel> roomOf(const LitVoxel& wall, std::uint32_t edge)
+std::vector<LitVoxel> roomOf(const LitVoxel& wall, std::uint32_t edge, std::uint32_t thickness)
 {
     std::vector<LitVoxel> voxels;
     addBox(voxels, glm::uvec3(0), glm::uvec3(edge), wall);
     std::erase_if(voxels,
-                  [&](const LitVoxel& v) {
-                      return glm::all(glm::greaterThan(v.cell, glm::uvec3(0))) &&
-                             glm::all(glm::lessThan(v.cell, glm::uvec3(edge - 1)));
+                  [&](const LitVoxel& v)
+                  {
+                      return glm::all(glm::greaterThanEqual(v.cell, glm::uvec3(thickness))) &&
+                             glm::all(glm::lessThan(v.cell, glm::uvec3(edge - thickness)));
                   });
     return voxels;
 }

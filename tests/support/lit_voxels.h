@@ -33,7 +33,7 @@ DeviceTree litTree(vk::HeadlessDevice& device, std::vector<LitVoxel> voxels, std
 /// The voxels of a box for whose cells make() gives one: from low up to, but without, high.
 void addBox(std::vector<LitVoxel>& voxels, const glm::uvec3& low, const glm::uvec3& high, const LitVoxel& voxel);
 
-/// A closed room of edge * edge * edge voxels, whose walls are one voxel thick.
-std::vector<LitVoxel> roomOf(const LitVoxel& wall, std::uint32_t edge);
+/// A closed room of edge * edge * edge voxels, whose walls are so many voxels thick.
+std::vector<LitVoxel> roomOf(const LitVoxel& wall, std::uint32_t edge, std::uint32_t thickness = 1);
 
 } // namespace zvo::test

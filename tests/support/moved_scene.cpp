@@ -13,21 +13,16 @@
 namespace zvo::test
 {
 
-namespace
+Made makeOctree(vk::HeadlessDevice& device, const PosedGpuScene& scene, Coverage coverage)
 {
-
-} // namespace
-
-Made makeOctree(vk::HeadlessDevice& device, const PosedGpuScene& scene, const Grid& grid, Coverage coverage)
-{
-    const BuildResult result = buildOctree(device, scene, grid, {coverage, true, {}});
+    const BuildResult result = buildOctree(device, scene, kGrid, {coverage, true, {}});
     return {octreeSha256(device, result.octree), result.dropped, result.octree.voxel_count};
 }
 
-Made makeAnew(const Scene& scene, const Grid& grid, Coverage coverage)
+Made makeAnew(const Scene& scene, Coverage coverage)
 {
     const GpuScene uploaded = uploadScene(device(), scene, true);
-    return makeOctree(device(), uploaded, grid, coverage);
+    return makeOctree(device(), uploaded, coverage);
 }
 
 std::uint32_t expectEqualsPosed(MovedScene& object, const Scene& scene, const Pose& pose)
@@ -37,8 +32,8 @@ std::uint32_t expectEqualsPosed(MovedScene& object, const Scene& scene, const Po
     std::uint32_t voxel_count = 0;
     for (const Coverage coverage : {Coverage::Thin, Coverage::Conservative})
     {
-        const Made moved = object.make(kGrid, coverage);
-        const Made expected = makeAnew(posed, kGrid, coverage);
+        const Made moved = object.make(coverage);
+        const Made expected = makeAnew(posed, coverage);
         EXPECT_EQ(moved.sha, expected.sha);
         EXPECT_EQ(moved.dropped, expected.dropped);
         voxel_count = moved.voxel_count;

@@ -28,7 +28,11 @@ struct Made
     std::uint32_t voxel_count = 0;
 };
 
-Made makeOctree(vk::HeadlessDevice& device, const PosedGpuScene& scene, const Grid& grid, Coverage coverage);
+/// A grid around mixedScene().
+constexpr Grid kGrid{.origin = glm::vec3(-4.0F), .voxel_size = 0.125F, .depth = 6};
+
+/// The octree of scene in kGrid.
+Made makeOctree(vk::HeadlessDevice& device, const PosedGpuScene& scene, Coverage coverage = Coverage::Thin);
 
 /// A scene on the device with the buffers that move it.
 class MovedScene
@@ -45,9 +49,9 @@ public:
         m_device.run([&](vk::FrameGraph& graph) { zvo::setPose(graph, m_mesh, pose, m_buffers); });
     }
 
-    Made make(const Grid& grid, Coverage coverage)
+    Made make(Coverage coverage = Coverage::Thin)
     {
-        return test::makeOctree(m_device, {m_uploaded, m_buffers}, grid, coverage);
+        return test::makeOctree(m_device, {m_uploaded, m_buffers}, coverage);
     }
 
     [[nodiscard]] const GpuScene& uploaded() const { return m_uploaded; }
@@ -62,10 +66,7 @@ private:
 };
 
 /// Uploads scene anew to the device that tests share, and builds an octree of it.
-Made makeAnew(const Scene& scene, const Grid& grid, Coverage coverage);
-
-/// A grid around mixedScene().
-constexpr Grid kGrid{.origin = glm::vec3(-4.0F), .voxel_size = 0.125F, .depth = 6};
+Made makeAnew(const Scene& scene, Coverage coverage = Coverage::Thin);
 
 /// Expects, with both coverages, that object in pose gives the same bytes as the posed scene uploaded anew. Returns the
 /// number of voxels.

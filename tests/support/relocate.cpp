@@ -12,6 +12,7 @@ namespace zvo::test
 namespace
 {
 
+constexpr std::uint32_t kUnused = ~0U;
 constexpr std::uint32_t kTail = 64; // so that children of spoiled nodes exist
 constexpr gpu::Node kSpoiledNode = {~0U, 0, ~0U, 0};
 constexpr gpu::Attribute kSpoiledAttribute = {0xFF00FF, 0};
@@ -73,12 +74,13 @@ vk::BufferOf<T> gathered(vk::HeadlessDevice& device, const vk::BufferOf<T>& buff
     std::vector<T> result;
     for (const std::uint32_t original : originals)
     {
-        result.push_back(original != Relocated::kUnused ? values.at(original) : spoiled);
+        result.push_back(original != kUnused ? values.at(original) : spoiled);
     }
     return device.makeBuffer(buffer.name(), std::span<const T>(result));
 }
 
-void gatherEmission(vk::HeadlessDevice& device, const DeviceTree& octree, Relocated& result)
+void gatherEmission(vk::HeadlessDevice& device, const DeviceTree& octree,
+                    const std::vector<std::uint32_t>& original_voxels, DeviceTree& result)
 {
     if (octree.emission.count() == 0)
     {
@@ -86,16 +88,16 @@ void gatherEmission(vk::HeadlessDevice& device, const DeviceTree& octree, Reloca
     }
     const std::vector<gpu::uvec2> old_words = device.download(octree.emission_words);
     const std::vector<gpu::uint> old_emission = device.download(octree.emission);
-    std::vector<gpu::uvec2> words(result.original_voxels.size() / 32 + 1, gpu::uvec2(0));
+    std::vector<gpu::uvec2> words(original_voxels.size() / 32 + 1, gpu::uvec2(0));
     std::vector<gpu::uint> emission;
-    for (std::size_t i = 0; i < result.original_voxels.size(); ++i)
+    for (std::size_t i = 0; i < original_voxels.size(); ++i)
     {
         if (i % 32 == 0)
         {
             words[i / 32].y = static_cast<gpu::uint>(emission.size());
         }
-        const std::uint32_t original = result.original_voxels[i];
-        if (original == Relocated::kUnused)
+        const std::uint32_t original = original_voxels[i];
+        if (original == kUnused)
         {
             continue;
         }
@@ -107,13 +109,13 @@ void gatherEmission(vk::HeadlessDevice& device, const DeviceTree& octree, Reloca
             emission.push_back(old_emission.at(word.y + static_cast<std::uint32_t>(rank)));
         }
     }
-    result.octree.emission_words = device.makeBuffer("emission words", std::span<const gpu::uvec2>(words));
-    result.octree.emission = device.makeBuffer("emission", std::span<const gpu::uint>(emission));
+    result.emission_words = device.makeBuffer("emission words", std::span<const gpu::uvec2>(words));
+    result.emission = device.makeBuffer("emission", std::span<const gpu::uint>(emission));
 }
 
 } // namespace
 
-Relocated relocate(vk::HeadlessDevice& device, const DeviceTree& octree, const RelocateOptions& options)
+DeviceTree relocate(vk::HeadlessDevice& device, const DeviceTree& octree, const RelocateOptions& options)
 {
     const std::vector<gpu::Node> originals = device.download(octree.nodes);
     const std::uint32_t level_count = octree.grid.nodeLevels();
@@ -151,33 +153,32 @@ Relocated relocate(vk::HeadlessDevice& device, const DeviceTree& octree, const R
         touched = std::move(next);
     }
 
-    Relocated result;
-    result.original_nodes.assign(nodes.size() + kTail, Relocated::kUnused);
-    result.original_voxels.assign(voxel_count + kTail, Relocated::kUnused);
+    std::vector<std::uint32_t> original_nodes(nodes.size() + kTail, kUnused); // of each node of the new octree
+    std::vector<std::uint32_t> original_voxels(voxel_count + kTail, kUnused);
     walkPairs(nodes, originals, level_count,
               [&](const Pair& pair, bool is_leaf)
               {
-                  result.original_nodes[pair.node] = pair.original;
+                  original_nodes[pair.node] = pair.original;
                   for (std::uint32_t c = 0; is_leaf && c < childCount(nodes[pair.node]); ++c)
                   {
-                      result.original_voxels.at(child(nodes[pair.node], c)) = child(originals[pair.original], c);
+                      original_voxels.at(child(nodes[pair.node], c)) = child(originals[pair.original], c);
                   }
               });
-    nodes.resize(result.original_nodes.size());
+    nodes.resize(original_nodes.size());
     for (std::size_t i = 0; i < nodes.size(); ++i)
     {
-        nodes[i] = result.original_nodes[i] != Relocated::kUnused ? nodes[i] : kSpoiledNode;
+        nodes[i] = original_nodes[i] != kUnused ? nodes[i] : kSpoiledNode;
     }
 
-    result.octree.grid = octree.grid;
-    result.octree.node_count = static_cast<std::uint32_t>(nodes.size());
-    result.octree.voxel_count = static_cast<std::uint32_t>(result.original_voxels.size());
-    result.octree.nodes = device.makeBuffer("nodes", std::span<const gpu::Node>(nodes));
-    result.octree.voxel_attributes =
-        gathered(device, octree.voxel_attributes, result.original_voxels, kSpoiledAttribute);
-    result.octree.node_attributes = gathered(device, octree.node_attributes, result.original_nodes, kSpoiledAttribute);
-    gatherEmission(device, octree, result);
-    result.octree.emission_scale = octree.emission_scale;
+    DeviceTree result;
+    result.grid = octree.grid;
+    result.node_count = static_cast<std::uint32_t>(nodes.size());
+    result.voxel_count = static_cast<std::uint32_t>(original_voxels.size());
+    result.nodes = device.makeBuffer("nodes", std::span<const gpu::Node>(nodes));
+    result.voxel_attributes = gathered(device, octree.voxel_attributes, original_voxels, kSpoiledAttribute);
+    result.node_attributes = gathered(device, octree.node_attributes, original_nodes, kSpoiledAttribute);
+    gatherEmission(device, octree, original_voxels, result);
+    result.emission_scale = octree.emission_scale;
     return result;
 }
 

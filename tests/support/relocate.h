@@ -18,22 +18,12 @@ struct RelocateOptions
     std::uint32_t touched_percent = 50; // of the nodes below a touched one
 };
 
-/// An octree, and the origin of each of its nodes and voxels.
-struct Relocated
-{
-    static constexpr std::uint32_t kUnused = ~0U;
-
-    DeviceTree octree;                          // without levels, as tracing must not need them
-    std::vector<std::uint32_t> original_nodes;  // [node_count] index in the original octree, or kUnused
-    std::vector<std::uint32_t> original_voxels; // [voxel_count]
-};
-
 /// Lays an octree out as an update would, with the same voxels, attributes and emission. Some nodes count as touched:
 /// the root always, others only below touched nodes. The old nodes and voxels keep their positions, except the root,
 /// which is node 0. Behind them stand the children of all touched nodes, level by level and in Morton order. Touched
 /// ones have new children; the others are copies that share the old children. Touched leaves have their own attributes
 /// behind the old ones, from a multiple of 32 on. Nodes that no ray can reach are spoiled: their masks are full and
-/// their children wrong.
-Relocated relocate(vk::HeadlessDevice& device, const DeviceTree& octree, const RelocateOptions& options = {});
+/// their children wrong. The result has no levels, as tracing must not need them.
+DeviceTree relocate(vk::HeadlessDevice& device, const DeviceTree& octree, const RelocateOptions& options = {});
 
 } // namespace zvo::test

@@ -2,7 +2,7 @@
 #include "support/trace_octrees.h"
 
 #include "oracle/morton.h"
-#include "oracle/octree_check.h"
+#include "support/tree_samples.h"
 
 #include <algorithm>
 #include <bit>
@@ -83,49 +83,34 @@ Codes spongeCodes(std::uint32_t depth)
 
 DeviceTree octreeOf(vk::HeadlessDevice& device, std::span<const std::uint64_t> codes, std::uint32_t depth)
 {
-    const oracle::ReferenceOctree reference = oracle::referenceOctree(codes, depth);
-    DeviceTree octree;
-    octree.grid.depth = depth;
-    octree.node_count = static_cast<std::uint32_t>(reference.nodes.size());
-    octree.voxel_count = static_cast<std::uint32_t>(codes.size());
-    for (const oracle::NodeRange& range : reference.levels)
-    {
-        octree.levels.push_back({range.first_node, range.node_count});
-    }
-    octree.nodes = device.makeBuffer("nodes", std::span(reference.nodes));
-    return octree;
+    return uploadTree(device, octreeOf(codes, depth));
 }
 
 void addAttributes(vk::HeadlessDevice& device, DeviceTree& octree)
 {
-    std::mt19937 random(octree.voxel_count);
-    std::vector<gpu::Attribute> attributes(octree.voxel_count);
-    std::vector<gpu::uvec2> words((octree.voxel_count + 31) / 32, gpu::uvec2(0));
-    std::vector<gpu::uint> emission;
-    for (std::uint32_t i = 0; i < octree.voxel_count; ++i)
-    {
-        const bool emissive = random() % 7 == 0;
-        attributes[i] = {static_cast<gpu::uint>(random() & 0xFFFFFF) | (emissive ? gpu::kAttributeEmissive << 24 : 0),
-                         random() % 8 == 0 ? gpu::kNoNormal : static_cast<gpu::uint>(random())};
-        if (i % 32 == 0)
-        {
-            words[i / 32].y = static_cast<gpu::uint>(emission.size());
-        }
-        if (emissive)
-        {
-            words[i / 32].x |= 1U << (i % 32);
-            emission.push_back(static_cast<gpu::uint>(random() % (1U << 27)) | 16U << 27);
-        }
-    }
-    octree.voxel_attributes = device.makeBuffer("voxel attributes", std::span<const gpu::Attribute>(attributes));
-    octree.emission_words = device.makeBuffer("emission words", std::span<const gpu::uvec2>(words));
-    octree.emission = device.makeBuffer("emission", std::span<const gpu::uint>(emission));
-    attributes.resize(octree.node_count);
-    for (gpu::Attribute& attribute : attributes)
-    {
-        attribute = {static_cast<gpu::uint>(random() & 0xFFFFFF), static_cast<gpu::uint>(random())};
-    }
-    octree.node_attributes = device.makeBuffer("node attributes", std::span<const gpu::Attribute>(attributes));
+    TreeData host; // of which addAttributes() needs only the counts
+    host.voxel_count = octree.voxel_count;
+    host.nodes.resize(octree.node_count);
+    addAttributes(host);
+    octree.voxel_attributes = device.makeBuffer<gpu::Attribute>("voxel attributes", host.voxel_attributes);
+    octree.node_attributes = device.makeBuffer<gpu::Attribute>("node attributes", host.node_attributes);
+    octree.emission_words = device.makeBuffer<gpu::uvec2>("emission words", host.emission_words);
+    octree.emission = device.makeBuffer<gpu::uint>("emission", host.emission);
+}
+
+std::vector<CodeSet> codeSets()
+{
+    std::mt19937 random(31);
+    return {
+        {1, {0, 5}},
+        {2, randomCodes(2, 20, random)},
+        {3, codesWhere(3, [](const glm::uvec3&) { return true; })},
+        {5, codesWhere(5, [](const glm::uvec3& voxel) { return (voxel.x + voxel.y + voxel.z) % 2 == 0; })},
+        {6, sphereShell(6, 24.0)},
+        {7, randomCodes(7, 3000, random)},
+        {8, spongeCodes(8)},
+        {11, randomCodes(11, 20000, random)},
+    };
 }
 
 } // namespace zvo::test

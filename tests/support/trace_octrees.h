@@ -30,10 +30,21 @@ Codes sphereShell(std::uint32_t depth, double radius);
 /// A Menger sponge in base 4: of every block of 4x4x4, the cells with two middle coordinates are left out.
 Codes spongeCodes(std::uint32_t depth);
 
+/// A set of voxels in a grid of this depth.
+struct CodeSet
+{
+    std::uint32_t depth;
+    Codes codes;
+};
+
+/// Sets of voxels that share much or little, with one or several levels of nodes.
+std::vector<CodeSet> codeSets();
+
 /// The octree of codes in device memory, without attributes. The grid has its corner at 0 and voxels of size 1.
 DeviceTree octreeOf(vk::HeadlessDevice& device, std::span<const std::uint64_t> codes, std::uint32_t depth);
 
-/// Gives every voxel and node of octree an arbitrary attribute, and some voxels emission.
+/// Gives every voxel and node of octree the attributes that addAttributes() gives in the host's memory
+/// (support/tree_samples.h). emission_scale stays.
 void addAttributes(vk::HeadlessDevice& device, DeviceTree& octree);
 
 } // namespace zvo::test

@@ -35,9 +35,8 @@ gpu::Ray deviceRay(const oracle::Ray& ray, float t_max)
     return {ray.origin, ray.t_min, ray.inv, t_max};
 }
 
-std::vector<gpu::Hit> traceOnDevice(vk::HeadlessDevice& device, const DeviceTree& tree,
-                                    const std::vector<gpu::Ray>& rays, const TraceOptions& options,
-                                    std::uint32_t capped_count)
+TracedRays traceRaysOf(vk::HeadlessDevice& device, const DeviceTree& tree, const std::vector<gpu::Ray>& rays,
+                       const TraceOptions& options)
 {
     const vk::BufferOf<gpu::Ray> ray_buffer = device.makeBuffer("rays", std::span<const gpu::Ray>(rays));
     vk::BufferOf<gpu::Hit> hits(device.device(), "hits", rays.size());
@@ -49,8 +48,16 @@ std::vector<gpu::Hit> traceOnDevice(vk::HeadlessDevice& device, const DeviceTree
             graph.fill(status, 0);
             traceRays(graph, tree, ray_buffer, hits, rounds, status, options);
         });
-    EXPECT_EQ(device.download(status).at(0).capped_rays, capped_count);
-    return device.download(hits);
+    return {device.download(hits), device.download(status).at(0).capped_rays};
+}
+
+std::vector<gpu::Hit> traceOnDevice(vk::HeadlessDevice& device, const DeviceTree& tree,
+                                    const std::vector<gpu::Ray>& rays, const TraceOptions& options,
+                                    std::uint32_t capped_count)
+{
+    TracedRays traced = traceRaysOf(device, tree, rays, options);
+    EXPECT_EQ(traced.capped_rays, capped_count);
+    return std::move(traced.hits);
 }
 
 oracle::Ray pickRay(std::mt19937& random, std::uint32_t resolution, const Codes& codes, bool very_far)
@@ -100,6 +107,13 @@ oracle::Ray pickRay(std::mt19937& random, std::uint32_t resolution, const Codes&
     }
     const float t_min = pick(0, 3) == 0 ? uniform(0.0F, 1.0F) : 0.0F;
     return oracle::makeRay(origin, direction, std::max(t_min, gpu::kTraceTimeMin));
+}
+
+std::vector<gpu::Ray> pickRays(std::mt19937& random, std::uint32_t resolution, const Codes& codes, std::uint32_t count)
+{
+    std::vector<gpu::Ray> rays(count);
+    std::ranges::generate(rays, [&] { return deviceRay(pickRay(random, resolution, codes)); });
+    return rays;
 }
 
 void expectEqualsReference(vk::HeadlessDevice& device, const DeviceTree& tree, const Codes& codes, std::uint32_t count,

@@ -35,6 +35,18 @@ gpu::Ray deviceRay(const oracle::Ray& ray, float t_max = std::numeric_limits<flo
 /// planes coincide by rounding, and the reference has to look at almost every voxel.
 oracle::Ray pickRay(std::mt19937& random, std::uint32_t resolution, const Codes& codes, bool very_far = true);
 
+/// count of these rays for the device.
+std::vector<gpu::Ray> pickRays(std::mt19937& random, std::uint32_t resolution, const Codes& codes, std::uint32_t count);
+
+/// The hits of rays in the same order, and the number of rays without an answer.
+struct TracedRays
+{
+    std::vector<gpu::Hit> hits;
+    std::uint32_t capped_rays = 0;
+};
+TracedRays traceRaysOf(vk::HeadlessDevice& device, const DeviceTree& tree, const std::vector<gpu::Ray>& rays,
+                       const TraceOptions& options = {});
+
 /// Traces rays and returns their hits in the same order. Expects that capped_count rays got no answer.
 std::vector<gpu::Hit> traceOnDevice(vk::HeadlessDevice& device, const DeviceTree& tree,
                                     const std::vector<gpu::Ray>& rays, const TraceOptions& options = {},

@@ -2,7 +2,9 @@
 #include "support/tree_samples.h"
 
 #include "oracle/attribute_formats.h"
+#include "oracle/dag.h"
 #include "oracle/octree_check.h"
+#include "support/same_bytes.h"
 
 #include <algorithm>
 #include <bit>
@@ -15,79 +17,6 @@
 
 namespace zvo::test
 {
-
-namespace
-{
-
-// The content of a subtree: child mask, and the children's numbers. Equal subtrees have equal content.
-using Subtree = std::pair<std::uint64_t, std::vector<std::uint32_t>>;
-
-// The nodes of one level of a DAG.
-struct DagLevel
-{
-    std::vector<Subtree> nodes;         // children as numbers in their level
-    std::vector<std::uint32_t> classes; // of the octree's nodes of this level
-};
-
-std::vector<DagLevel> dagLevels(const TreeData& octree)
-{
-    std::vector<DagLevel> levels(octree.levels.size());
-    for (std::size_t level = levels.size(); level-- > 0;)
-    {
-        std::map<Subtree, std::uint32_t> known;
-        std::uint32_t child = 0;
-        for (std::uint32_t i = 0; i < octree.levels[level].node_count; ++i)
-        {
-            Subtree subtree = {cellMask(octree.nodes[octree.levels[level].first_node + i]), {}};
-            for (int c = 0; c < std::popcount(subtree.first) && level + 1 < levels.size(); ++c)
-            {
-                subtree.second.push_back(levels[level + 1].classes[child++]);
-            }
-            const auto [entry, is_new] = known.emplace(subtree, static_cast<std::uint32_t>(levels[level].nodes.size()));
-            if (is_new)
-            {
-                levels[level].nodes.push_back(std::move(subtree));
-            }
-            levels[level].classes.push_back(entry->second);
-        }
-    }
-    return levels;
-}
-
-gpu::BeforeChild below(const std::vector<DagLevel>& levels, std::size_t level, std::uint32_t number)
-{
-    const Subtree& subtree = levels[level].nodes[number];
-    if (subtree.second.empty())
-    {
-        return {static_cast<std::uint32_t>(std::popcount(subtree.first)), 1};
-    }
-    gpu::BeforeChild sum = {0, 1};
-    for (const std::uint32_t child : subtree.second)
-    {
-        const gpu::BeforeChild part = below(levels, level + 1, child);
-        sum = {sum.voxels + part.voxels, sum.nodes + part.nodes};
-    }
-    return sum;
-}
-
-// Appends the numbers of an octree's nodes in depth-first order.
-void listDepthFirst(const TreeData& octree, std::size_t level, std::uint32_t index, std::vector<std::uint32_t>& order)
-{
-    order.push_back(index);
-    const gpu::Node& node = octree.nodes[index];
-    for (std::uint32_t i = 0;
-         level + 1 < octree.levels.size() && i < static_cast<std::uint32_t>(std::popcount(cellMask(node))); ++i)
-    {
-        listDepthFirst(octree, level + 1, node.base_lo + i, order);
-    }
-}
-
-template <typename T> bool sameBytes(const std::vector<T>& a, const std::vector<T>& b)
-{
-    return a.size() == b.size() && (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0);
-}
-
-} // namespace
 
 TreeData octreeOf(std::span<const std::uint64_t> codes, std::uint32_t depth)
 {
@@ -112,8 +41,8 @@ void addAttributes(TreeData& octree)
     {
         const bool emissive = random() % 7 == 0;
         const auto color = static_cast<std::uint32_t>(random() & 0xFFFFFF);
-        octree.voxel_attributes.push_back(
-            {color | (emissive ? gpu::kAttributeEmissive << 24 : 0), static_cast<gpu::uint>(random())});
+        octree.voxel_attributes.push_back({color | (emissive ? gpu::kAttributeEmissive << 24 : 0),
+                                           random() % 8 == 0 ? gpu::kNoNormal : static_cast<gpu::uint>(random())});
         octree.emission_words[i / 32].y =
             i % 32 == 0 ? static_cast<gpu::uint>(octree.emission.size()) : octree.emission_words[i / 32].y;
         if (emissive)
@@ -160,64 +89,35 @@ TreeData packedTree(const TreeData& tree, AttributeFormat format)
 
 TreeData dagOf(const TreeData& octree)
 {
+    std::vector<oracle::NodeRange> levels;
+    for (const DeviceTree::Level& level : octree.levels)
+    {
+        levels.push_back({level.first_node, level.node_count});
+    }
+    oracle::ReferenceDag reference = oracle::referenceDag(octree.nodes, levels);
     TreeData dag = octree;
     dag.structure = TreeStructure::Svdag;
     dag.levels.clear();
-    dag.nodes.clear();
+    for (const oracle::NodeRange& range : reference.levels)
+    {
+        dag.levels.push_back({range.first_node, range.node_count});
+    }
+    dag.nodes.assign(reference.pool.begin(), reference.pool.begin() + reference.node_count);
+    for (std::uint64_t i = 0; i < reference.entry_count; ++i)
+    {
+        const std::uint64_t place = std::uint64_t{2} * reference.node_count * reference.entries_per_word + i;
+        dag.lists.push_back(oracle::entryAt(reference.pool, place, reference.entries_per_word));
+    }
+    dag.long_entry_count = reference.long_entry_count;
     dag.node_attributes.clear();
-    const std::vector<DagLevel> levels = dagLevels(octree);
-    std::uint32_t node_count = 0;
-    for (const DagLevel& level : levels)
-    {
-        dag.levels.push_back({node_count, static_cast<std::uint32_t>(level.nodes.size())});
-        node_count += dag.levels.back().node_count;
-    }
-    assert(node_count <= 65536); // a word has four entries
-    std::vector<std::uint32_t> short_counts;
-    for (std::size_t level = 0; level < levels.size(); ++level)
-    {
-        const bool is_long = level + 2 < levels.size();
-        for (const Subtree& subtree : levels[level].nodes)
-        {
-            const auto mask_lo = static_cast<std::uint32_t>(subtree.first);
-            const auto mask_hi = static_cast<std::uint32_t>(subtree.first >> 32);
-            const auto lower = static_cast<std::uint32_t>(std::popcount(mask_lo));
-            const bool is_leaf = level + 1 == levels.size();
-            const std::uint32_t base =
-                is_leaf ? 0 : gpu::kChildList + 8 * node_count + static_cast<std::uint32_t>(dag.lists.size());
-            dag.nodes.push_back({mask_lo, base, mask_hi, base + lower});
-            gpu::BeforeChild before = {0, 0};
-            for (const std::uint32_t child : subtree.second)
-            {
-                dag.lists.push_back(dag.levels[level + 1].first_node + child);
-                if (is_long)
-                {
-                    dag.before.push_back(before);
-                }
-                else
-                {
-                    short_counts.push_back(before.voxels);
-                }
-                const gpu::BeforeChild part = below(levels, level + 1, child);
-                before = {before.voxels + part.voxels, before.nodes + part.nodes};
-            }
-        }
-    }
-    dag.long_entry_count = dag.before.size();
-    dag.before.resize(octree.hasAttributes() ? dag.before.size() : 0);
-    dag.voxels_before_leaf.resize(octree.hasAttributes() ? (short_counts.size() + 1) / 2 : 0);
-    for (std::size_t i = 0; i < short_counts.size() && octree.hasAttributes(); ++i)
-    {
-        dag.voxels_before_leaf[i / 2] |= short_counts[i] << (i % 2 * 16);
-    }
-    std::vector<std::uint32_t> order;
     if (octree.hasAttributes())
     {
-        listDepthFirst(octree, 0, 0, order);
-    }
-    for (const std::uint32_t node : order)
-    {
-        dag.node_attributes.push_back(octree.node_attributes[node]);
+        dag.before = std::move(reference.before);
+        dag.voxels_before_leaf = std::move(reference.voxels_before_leaf);
+        for (const std::uint32_t node : reference.depth_first)
+        {
+            dag.node_attributes.push_back(octree.node_attributes[node]);
+        }
     }
     return dag;
 }

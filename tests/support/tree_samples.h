@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Trees that are made in the host's memory by other means than on the device: maps instead of hash tables, recursion
-// instead of passes.
+// Trees that the oracles make in the host's memory.
 #pragma once
 
 #include "core/tree/tree_data.h"
@@ -16,7 +15,8 @@ namespace zvo::test
 /// The octree of sorted, unique Morton codes, without attributes. The grid has its corner at 0 and voxels of size 1.
 TreeData octreeOf(std::span<const std::uint64_t> codes, std::uint32_t depth);
 
-/// Gives all voxels and nodes of an octree arbitrary attributes, and one voxel in seven emission.
+/// Gives all voxels and nodes of an octree arbitrary attributes. One voxel in eight has no normal, one in seven
+/// emission.
 void addAttributes(TreeData& octree);
 
 /// The same tree with its attributes in a packed form.

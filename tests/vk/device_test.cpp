@@ -16,7 +16,6 @@
 #include <algorithm>
 #include <cstdint>
 #include <cstring>
-#include <numeric>
 
 namespace
 {
@@ -238,60 +237,6 @@ TEST(Device, AQueueFamilyThatDoesNotExistIsRefused)
     messageOf([&] { const vk::Device refused(handles, testKernels()); }, ErrorCode::Device);
 }
 
-// Records into a command buffer as a host does, submits it and waits.
-void submitAsHost(vk::Device& target, const std::function<void(VkCommandBuffer)>& record)
-{
-    const vk::Functions& fn = target.fn();
-    VkQueue queue = VK_NULL_HANDLE;
-    fn.vkGetDeviceQueue(target.handle(), target.handles().queue_family, 0, &queue);
-    VkCommandPoolCreateInfo pool_info{};
-    pool_info.sType = VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO;
-    pool_info.queueFamilyIndex = target.handles().queue_family;
-    VkCommandPool pool = VK_NULL_HANDLE;
-    VK_CHECK(fn.vkCreateCommandPool(target.handle(), &pool_info, nullptr, &pool));
-    VkCommandBufferAllocateInfo allocate_info{};
-    allocate_info.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO;
-    allocate_info.commandPool = pool;
-    allocate_info.commandBufferCount = 1;
-    VkCommandBuffer commands = VK_NULL_HANDLE;
-    VK_CHECK(fn.vkAllocateCommandBuffers(target.handle(), &allocate_info, &commands));
-    VkCommandBufferBeginInfo begin_info{};
-    begin_info.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO;
-    VK_CHECK(fn.vkBeginCommandBuffer(commands, &begin_info));
-    record(commands);
-    VK_CHECK(fn.vkEndCommandBuffer(commands));
-    VkCommandBufferSubmitInfo commands_info{};
-    commands_info.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_SUBMIT_INFO;
-    commands_info.commandBuffer = commands;
-    VkSubmitInfo2 submit{};
-    submit.sType = VK_STRUCTURE_TYPE_SUBMIT_INFO_2;
-    submit.commandBufferInfoCount = 1;
-    submit.pCommandBufferInfos = &commands_info;
-    VK_CHECK(fn.vkQueueSubmit2(queue, 1, &submit, VK_NULL_HANDLE));
-    VK_CHECK(fn.vkDeviceWaitIdle(target.handle()));
-    fn.vkDestroyCommandPool(target.handle(), pool, nullptr);
-}
-
-TEST(Device, RecordsIntoAHostsCommandBuffer)
-{
-    vk::Device guest(device().device().handles(), testKernels());
-    vk::BufferOf<gpu::uint> values(guest, "values", 1000);
-    vk::BufferOf<gpu::uint> result(guest, "result", 1000, vk::MemoryKind::Readback);
-    submitAsHost(guest,
-                 [&](VkCommandBuffer commands)
-                 {
-                     vk::FrameGraph graph(guest, commands);
-                     vk::Pass pass = graph.addPass(gpu::test::Iota{});
-                     const gpu::FillParams params = {.values = pass.write(values), .count = 1000};
-                     pass.dispatch(1000, params);
-                     graph.copy(values, 0, result, 0, values.bytes());
-                     graph.releaseToHost();
-                 });
-    std::vector<gpu::uint> expected(1000);
-    std::iota(expected.begin(), expected.end(), 0u);
-    EXPECT_TRUE(std::equal(expected.begin(), expected.end(), result.mappedData()));
-}
-
 TEST(HostDevice, SeesWhatZvoSubmitsAndWaitsForAndNotItsOwn)
 {
     test::failCall(UINT64_MAX);
@@ -333,13 +278,13 @@ TEST(Validation, SpeaksWhenABarrierIsMissing)
     vk::HeadlessDevice faulty(options, testKernels());
     const vk::Buffer from(faulty.device(), "from", 64);
     const vk::Buffer to(faulty.device(), "to", 64);
-    submitAsHost(faulty.device(),
-                 [&](VkCommandBuffer commands)
-                 {
-                     const VkBufferCopy region{0, 0, 64};
-                     faulty.device().fn().vkCmdFillBuffer(commands, from.handle(), 0, 64, 0);
-                     faulty.device().fn().vkCmdCopyBuffer(commands, from.handle(), to.handle(), 1, &region);
-                 });
+    const auto record = [&](VkCommandBuffer commands)
+    {
+        const VkBufferCopy region{0, 0, 64};
+        faulty.device().fn().vkCmdFillBuffer(commands, from.handle(), 0, 64, 0);
+        faulty.device().fn().vkCmdCopyBuffer(commands, from.handle(), to.handle(), 1, &region);
+    };
+    faulty.run([&](vk::FrameGraph& graph) { graph.record("a fill and a copy of what it writes", {}, record); });
     EXPECT_EQ(messages, 1u);
     EXPECT_EQ(faulty.validationMessageCount(), 1u);
 }

@@ -116,9 +116,7 @@ const HostChain kHostChains[] = {
     {"AnExtensionThatVulkan12Decides", [](VkDeviceCreateInfo&, FeatureStructs&) {}, "VK_KHR_draw_indirect_count"},
 };
 
-class HostChains : public testing::TestWithParam<HostChain>
-{
-};
+using HostChains = testing::TestWithParam<HostChain>;
 
 INSTANTIATE_TEST_SUITE_P(PatchFeatures, HostChains, testing::ValuesIn(kHostChains),
                          [](const auto& chain) { return chain.param.name; });

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Devices with reduced limits, and passes that a host splits into pieces.
+#include "support/errors.h"
 #include "vk/kernels.h"
 
 #include "zvo/error.h"
@@ -22,16 +23,7 @@ std::string refusalOf(const vk::DeviceOverrides& overrides, const vk::TuningValu
     vk::HeadlessOptions options = test::deviceOptions();
     options.overrides = overrides;
     options.tuning = tuning;
-    try
-    {
-        const vk::HeadlessDevice refused(options, testKernels());
-    }
-    catch (const Error& error)
-    {
-        EXPECT_EQ(error.code(), ErrorCode::Device);
-        return error.what();
-    }
-    return "";
+    return test::messageOf([&] { const vk::HeadlessDevice refused(options, testKernels()); }, ErrorCode::Device);
 }
 
 TEST(DeviceOverrides, OfGroupCountsAreMetByFoldingAndByPieces)
@@ -63,16 +55,8 @@ TEST(DeviceOverrides, OfBuffersAndAllocationsAreMemoryErrors)
         vk::HeadlessDevice small(options, testKernels());
         EXPECT_EQ(small.device().report().max_buffer_bytes, 1000U);
         const vk::Buffer fits(small.device(), "fits", 1000);
-        try
-        {
-            const vk::Buffer buffer(small.device(), "the voxels", 1001);
-            FAIL() << "it was allowed";
-        }
-        catch (const Error& error)
-        {
-            EXPECT_EQ(error.code(), ErrorCode::Memory);
-            EXPECT_NE(std::string(error.what()).find("the voxels"), std::string::npos) << error.what();
-        }
+        const auto takeMore = [&] { const vk::Buffer buffer(small.device(), "the voxels", 1001); };
+        test::expectParts(test::messageOf(takeMore, ErrorCode::Memory), {"the voxels"});
     }
 }
 

@@ -102,9 +102,7 @@ Words packByOracle(const Attributes& attributes, AttributeFormat format)
     return words;
 }
 
-class PackAttributes : public testing::TestWithParam<AttributeFormat>
-{
-};
+using PackAttributes = testing::TestWithParam<AttributeFormat>;
 
 INSTANTIATE_TEST_SUITE_P(Formats, PackAttributes, testing::ValuesIn(kFormats),
                          [](const auto& format) { return std::string("Format") + formatName(format.param); });

@@ -9,6 +9,7 @@
 #include "support/deforming_scenes.h"
 #include "support/device.h"
 #include "support/engine_device.h"
+#include "support/errors.h"
 #include "support/moved_scene.h"
 #include "support/scenes.h"
 #include "zvo/error.h"
@@ -120,8 +121,8 @@ TEST(DynamicObject, WhatIsNotFiniteIsCountedAndTheRestIsThere)
     pose.morph_weights[8][0] = nan;
     EXPECT_GT(expectEqualsPosed(object, scene, pose), 3000U);
     // The instances 0 and 8 are dropped, and a part of instance 1.
-    EXPECT_GT(object.make(kGrid, Coverage::Thin).dropped["nonfinite"], 2U * 58);
-    EXPECT_LT(object.make(kGrid, Coverage::Thin).dropped["nonfinite"], 3U * 58);
+    EXPECT_GT(object.make().dropped["nonfinite"], 2U * 58);
+    EXPECT_LT(object.make().dropped["nonfinite"], 3U * 58);
 }
 
 TEST(DynamicObject, ComesBackToTheSameBytesInConstantMemory)
@@ -131,8 +132,7 @@ TEST(DynamicObject, ComesBackToTheSameBytesInConstantMemory)
     Pose second = first;
     test::changePose(random, second);
     MovedScene object(device(), scene);
-    const std::string shas[2] = {makeAnew(posedScene(scene, first), kGrid, Coverage::Thin).sha,
-                                 makeAnew(posedScene(scene, second), kGrid, Coverage::Thin).sha};
+    const std::string shas[2] = {makeAnew(posedScene(scene, first)).sha, makeAnew(posedScene(scene, second)).sha};
     object.setPose(first);
     vk::MemoryAllocator& memory = device().device().memory();
     const std::uint64_t used = memory.usedBytes();
@@ -149,9 +149,9 @@ TEST(DynamicObject, ComesBackToTheSameBytesInConstantMemory)
     EXPECT_EQ(object.buffers().host_draws.data(), draws);
     EXPECT_EQ(object.buffers().pose.host_joint_matrices.data(), joints);
     EXPECT_EQ(object.buffers().pose.host_morph_terms.data(), terms);
-    EXPECT_EQ(object.make(kGrid, Coverage::Thin).sha, shas[0]);
+    EXPECT_EQ(object.make().sha, shas[0]);
     object.setPose(second);
-    EXPECT_EQ(object.make(kGrid, Coverage::Thin).sha, shas[1]);
+    EXPECT_EQ(object.make().sha, shas[1]);
 }
 
 TEST(DynamicObject, TwoSetsOfBuffersOfOneSceneAreIndependent)
@@ -171,9 +171,8 @@ TEST(DynamicObject, TwoSetsOfBuffersOfOneSceneAreIndependent)
             setPose(graph, object.mesh(), pose, object.buffers());
             setPose(graph, object.mesh(), other, second);
         });
-    EXPECT_EQ(object.make(kGrid, Coverage::Thin).sha, makeAnew(posedScene(scene, pose), kGrid, Coverage::Thin).sha);
-    EXPECT_EQ(makeOctree(device(), {object.uploaded(), second}, kGrid, Coverage::Thin).sha,
-              makeAnew(posedScene(scene, other), kGrid, Coverage::Thin).sha);
+    EXPECT_EQ(object.make().sha, makeAnew(posedScene(scene, pose)).sha);
+    EXPECT_EQ(makeOctree(device(), {object.uploaded(), second}).sha, makeAnew(posedScene(scene, other)).sha);
 }
 
 TEST(DynamicObject, SplitOverSubmissionsItHasTheSameBytes)
@@ -185,7 +184,7 @@ TEST(DynamicObject, SplitOverSubmissionsItHasTheSameBytes)
     vk::HeadlessDevice sliced(options, zvoKernels());
     MovedScene object(sliced, scene);
     object.setPose(pose);
-    EXPECT_EQ(object.make(kGrid, Coverage::Thin).sha, makeAnew(posedScene(scene, pose), kGrid, Coverage::Thin).sha);
+    EXPECT_EQ(object.make().sha, makeAnew(posedScene(scene, pose)).sha);
 }
 
 TEST(DynamicObject, TransformsOfAnotherSceneAreRefused)
@@ -217,16 +216,10 @@ TEST(DynamicObject, NeedsAreNamedBeforeMemoryIsTaken)
     const GpuScene uploaded = uploadScene(limited, scene, true);
     const DeformMesh mesh = uploadDeformMesh(limited, scene);
     const std::uint64_t used = limited.device().memory().usedBytes();
-    try
-    {
-        const DynamicObjectBuffers object = makeDynamicObject(limited, planDynamicObject(scene, mesh), uploaded, mesh);
-        FAIL() << "400 instances of 1000 vertices, 24 bytes each";
-    }
-    catch (const Error& error)
-    {
-        EXPECT_EQ(error.code(), ErrorCode::Memory);
-        EXPECT_EQ(std::string(error.what()).rfind("a moving object needs", 0), 0U) << error.what();
-    }
+    // 400 instances of 1000 vertices take 24 bytes each.
+    const auto make = [&] { makeDynamicObject(limited, planDynamicObject(scene, mesh), uploaded, mesh); };
+    const std::string message = test::messageOf(make, ErrorCode::Memory);
+    EXPECT_TRUE(message.starts_with("a moving object needs")) << message;
     EXPECT_EQ(limited.device().memory().usedBytes(), used);
 }
 

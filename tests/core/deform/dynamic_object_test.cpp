@@ -20,7 +20,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <set>
 #include <string>
 
@@ -33,7 +32,6 @@ using test::expectEqualsPosed;
 using test::kGrid;
 using test::Made;
 using test::makeAnew;
-using test::makeOctree;
 using test::mixedScene;
 using test::MovedScene;
 
@@ -50,112 +48,6 @@ TEST(DynamicObject, OfAllSortsOfInstancesEqualsAnUploadInEveryPose)
         EXPECT_GT(expectEqualsPosed(object, scene, pose), 5000U);
         test::changePose(random, pose);
     }
-}
-
-/// A column of rings on a chain of joints that bends and twists, and a bump that grows out of a plate on a carrier.
-Scene bendingScene()
-{
-    constexpr std::uint32_t kRings = 24;
-    constexpr std::uint32_t kSegments = 16;
-    constexpr std::uint32_t kJoints = 4;
-    Scene scene;
-    scene.materials.emplace_back();
-    Primitive column;
-    for (std::uint32_t ring = 0; ring <= kRings; ++ring)
-    {
-        const float height = 3.0F * static_cast<float>(ring) / kRings; // the joints are 1 apart
-        const auto joint = std::min(static_cast<std::uint32_t>(height), kJoints - 2);
-        const float share = height - static_cast<float>(joint);
-        for (std::uint32_t segment = 0; segment < kSegments; ++segment)
-        {
-            const float angle = 2.0F * std::numbers::pi_v<float> * static_cast<float>(segment) / kSegments;
-            const glm::vec3 normal(std::cos(angle), 0.0F, std::sin(angle));
-            column.positions.push_back(0.4F * normal + glm::vec3(0.0F, height, 0.0F));
-            column.normals.push_back(normal);
-            column.joints.emplace_back(joint, joint + 1, 0, 0);
-            column.weights.emplace_back(1.0F - share, share, 0.0F, 0.0F);
-            const std::uint32_t a = ring * kSegments + segment;
-            const std::uint32_t b = ring * kSegments + (segment + 1) % kSegments;
-            if (ring != kRings)
-            {
-                column.triangles.emplace_back(a, b, a + kSegments);
-                column.triangles.emplace_back(b, b + kSegments, a + kSegments);
-            }
-        }
-    }
-    Primitive plate;
-    MorphTarget bump;
-    for (std::uint32_t i = 0; i < 81; ++i)
-    {
-        const glm::vec3 place(static_cast<float>(i % 9) / 4.0F - 1.0F, 0.0F, static_cast<float>(i / 9) / 4.0F - 1.0F);
-        plate.positions.push_back(place);
-        bump.positions.emplace_back(0.0F, std::exp(-3.0F * glm::dot(place, place)), 0.0F);
-        if (i % 9 != 8 && i / 9 != 8)
-        {
-            plate.triangles.emplace_back(i, i + 9, i + 1);
-            plate.triangles.emplace_back(i + 1, i + 9, i + 10);
-        }
-    }
-    plate.morph_targets = {bump};
-    scene.primitives = {column, plate};
-
-    Animation animation{"bend", {}, 2.0};
-    Skin skin;
-    for (std::uint32_t joint = 0; joint < kJoints; ++joint)
-    {
-        Node node;
-        node.parent = joint == 0 ? kNone : joint - 1;
-        node.translation = joint == 0 ? glm::vec3(-1.5F, -2.0F, 0.0F) : glm::vec3(0.0F, 1.0F, 0.0F);
-        scene.nodes.push_back(node);
-        skin.joints.push_back(joint);
-        skin.inverse_bind.push_back(glm::translate(glm::mat4(1.0F), glm::vec3(0.0F, -static_cast<float>(joint), 0.0F)));
-        Channel bend;
-        bend.node = joint;
-        bend.path = ChannelPath::Rotation;
-        bend.times = {0.0F, 1.0F, 2.0F};
-        bend.values = {0, 0, 0, 1, 0.2F, 0.3F, 0.1F, 0.9F, 0, 0, 0, 1};
-        animation.channels.push_back(bend);
-    }
-    Node carrier;
-    carrier.translation = {1.5F, -1.0F, 0.5F};
-    carrier.scale = {1.0F, 1.0F, -1.0F}; // mirrored
-    carrier.morph_weights = {0.0F};
-    scene.nodes.push_back(carrier);
-    Channel grow;
-    grow.node = kJoints;
-    grow.path = ChannelPath::Weights;
-    grow.times = {0.0F, 0.5F, 2.0F};
-    grow.values = {0.0F, 2.0F, -1.0F};
-    Channel turn;
-    turn.node = kJoints;
-    turn.path = ChannelPath::Rotation;
-    turn.times = {0.0F, 2.0F};
-    turn.values = {0, 0, 0, 1, 1, 0, 0, 0};
-    animation.channels.push_back(grow);
-    animation.channels.push_back(turn);
-    scene.animations.push_back(animation);
-    scene.skins.push_back(skin);
-    scene.instances.push_back({0, glm::mat4(1.0F), kNone, 0});
-    scene.instances.push_back({1, glm::mat4(1.0F), kJoints, kNone});
-    return scene;
-}
-
-TEST(DynamicObject, FollowsAnimationsThroughTheirTime)
-{
-    const Scene scene = bendingScene();
-    MovedScene object(device(), scene);
-    EXPECT_EQ(object.mesh().parts.size(), 2U);
-    std::set<std::string> shas;
-    for (const double seconds : {0.0, 0.3, 0.5, 1.0, 1.7})
-    {
-        const Pose pose = poseAt(scene, seconds);
-        EXPECT_GT(expectEqualsPosed(object, scene, pose), 1000U);
-        shas.insert(object.make(kGrid, Coverage::Thin).sha);
-    }
-    EXPECT_EQ(shas.size(), 5U);
-    object.setPose(poseAt(scene, 2.0)); // the initial pose
-    EXPECT_EQ(object.make(kGrid, Coverage::Thin).sha,
-              makeAnew(posedScene(scene, poseAt(scene, 0.0)), kGrid, Coverage::Thin).sha);
 }
 
 /// A ball of radius 1 around the origin, without normals. Each vertex has one joint: the first if y > 0, otherwise the
@@ -188,8 +80,8 @@ TEST(DynamicObject, WithoutNormalsOnJointsThatMirrorEqualsARigidInstance)
         rigid.instances[0].transform = transform;
         const Pose pose{{glm::mat4(1.0F)}, {{transform, transform}}, {{}}};
         EXPECT_GT(expectEqualsPosed(object, scene, pose), 1000U);
-        const std::string sha = makeAnew(rigid, kGrid, Coverage::Thin).sha;
-        EXPECT_EQ(object.make(kGrid, Coverage::Thin).sha, sha) << scale.x << " " << scale.y << " " << scale.z;
+        const std::string sha = makeAnew(rigid).sha;
+        EXPECT_EQ(object.make().sha, sha) << scale.x << " " << scale.y << " " << scale.z;
         shas.insert(sha);
     }
     EXPECT_GT(shas.size(), 1U);
@@ -248,8 +140,8 @@ TEST(DynamicObject, RigidWithAllMaterialsEqualsAnUpload)
             moved.instances[i].transform = transforms[i];
         }
         device().run([&](vk::FrameGraph& graph) { setPose(graph, transforms, object.buffers()); });
-        const Made expected = makeAnew(moved, kGrid, Coverage::Thin);
-        EXPECT_EQ(object.make(kGrid, Coverage::Thin).sha, expected.sha);
+        const Made expected = makeAnew(moved);
+        EXPECT_EQ(object.make().sha, expected.sha);
         EXPECT_GT(expected.voxel_count, 5000U);
     }
 }
@@ -261,15 +153,14 @@ TEST(DynamicObject, HasTheVoxelsOfTheOracle)
     MovedScene object(device(), scene);
     object.setPose(pose);
     const Scene posed = posedScene(scene, pose);
-    EXPECT_EQ(test::expectEqualsOracle(device(), posed, kGrid, Coverage::Thin),
-              object.make(kGrid, Coverage::Thin).voxel_count);
+    EXPECT_EQ(test::expectEqualsOracle(device(), posed, kGrid, Coverage::Thin), object.make().voxel_count);
 }
 
 TEST(DynamicObject, AsItWasUploadedEqualsTheUpload)
 {
     const Scene scene = test::materialsScene(3.0F);
     MovedScene object(device(), scene);
-    EXPECT_EQ(object.make(kGrid, Coverage::Thin).sha, makeAnew(scene, kGrid, Coverage::Thin).sha);
+    EXPECT_EQ(object.make().sha, makeAnew(scene).sha);
 }
 
 TEST(DynamicObject, WithoutWeightsStandsAsAtRest)
@@ -281,14 +172,14 @@ TEST(DynamicObject, WithoutWeightsStandsAsAtRest)
     scene.primitives.push_back(test::deformingPrimitive(random, 300, {true, 0, 4}));
     test::addDeforming(random, scene, pose, 0, 0);
     scene.instances[0].transform = pose.transforms[0];
-    const Made rest = makeAnew(scene, kGrid, Coverage::Thin);
+    const Made rest = makeAnew(scene);
     MovedScene object(device(), scene);
     pose.morph_weights[0].assign(4, 0.0F);
     object.setPose(pose);
-    EXPECT_EQ(object.make(kGrid, Coverage::Thin).sha, rest.sha);
+    EXPECT_EQ(object.make().sha, rest.sha);
     pose.morph_weights[0][0] = 0.5F;
     object.setPose(pose);
-    EXPECT_NE(object.make(kGrid, Coverage::Thin).sha, rest.sha);
+    EXPECT_NE(object.make().sha, rest.sha);
 }
 
 } // namespace

@@ -6,6 +6,7 @@
 #include "core/scene/camera.h"
 #include "support/engine_device.h"
 #include "support/lit_voxels.h"
+#include "support/path_pictures.h"
 
 #include <gtest/gtest.h>
 
@@ -82,11 +83,6 @@ private:
     Denoiser m_denoiser;
 };
 
-DeviceEnvironment constantLight(float radiance)
-{
-    return {device().device(), HdrImage{2, 1, std::vector(2, glm::vec3(radiance))}, 0.0, 1.0};
-}
-
 // Two walls and a floor with boxes of two colours, and a lamp that the views below do not show.
 DeviceTree room()
 {
@@ -138,7 +134,7 @@ const HdrImage& truth()
 {
     static const HdrImage image = []
     {
-        DeviceEnvironment dark = constantLight(0.05F);
+        DeviceEnvironment dark = test::constantSky(glm::vec3(0.05F));
         return Camera().noisy(room(), dark, intoTheRoom(), 512, {.bounces = 3, .seed = 1000});
     }();
     return image;
@@ -147,7 +143,7 @@ const HdrImage& truth()
 TEST(Denoiser, FourSamplesBecomeBetterThanManyMore)
 {
     const DeviceTree tree = room();
-    DeviceEnvironment light = constantLight(0.05F);
+    DeviceEnvironment light = test::constantSky(glm::vec3(0.05F));
     Camera camera;
     const HdrImage noisy = camera.noisy(tree, light, intoTheRoom(), 4, {.bounces = 3});
     const HdrImage many = camera.noisy(tree, light, intoTheRoom(), 24, {.bounces = 3});
@@ -162,7 +158,7 @@ TEST(Denoiser, FourSamplesBecomeBetterThanManyMore)
 TEST(Denoiser, ManySamplesAreNotSpoilt)
 {
     const DeviceTree tree = room();
-    DeviceEnvironment light = constantLight(0.05F);
+    DeviceEnvironment light = test::constantSky(glm::vec3(0.05F));
     Camera camera;
     const HdrImage noisy = camera.noisy(tree, light, intoTheRoom(), 128, {.bounces = 3});
     const HdrImage denoised = Camera().denoised(tree, light, intoTheRoom(), 128, {.bounces = 3});
@@ -173,7 +169,7 @@ TEST(Denoiser, ManySamplesAreNotSpoilt)
 TEST(Denoiser, DirectLightIsNotTouched)
 {
     const DeviceTree tree = room();
-    DeviceEnvironment light = constantLight(0.5F);
+    DeviceEnvironment light = test::constantSky(glm::vec3(0.5F));
     const ViewCamera past_the_room = ViewCamera::lookAt({30.0, 20.0, 40.0}, {12.0, 24.0, 8.0}, 0.9);
     const HdrImage plain = Camera().noisy(tree, light, past_the_room, 2, {.bounces = 2});
     const HdrImage denoised = Camera().denoised(tree, light, past_the_room, 2, {.bounces = 2});
@@ -201,7 +197,7 @@ TEST(Denoiser, VeryBrightLightIsFinite)
 TEST(Denoiser, OrthographicCamerasKnowPlaces)
 {
     const DeviceTree tree = room();
-    DeviceEnvironment light = constantLight(0.05F);
+    DeviceEnvironment light = test::constantSky(glm::vec3(0.05F));
     const auto from = [](double x)
     {
         ViewCamera view = ViewCamera::lookAt({30.0 + x, 17.0, 40.0}, {13.0 + x, 6.0, 8.0}, 0.5);
@@ -231,7 +227,7 @@ TEST(Denoiser, ColoursDoNotBleed)
         voxels.push_back({cell + 4U, odd ? glm::uvec3(250, 30, 20) : glm::uvec3(40, 60, 240)});
     }
     const DeviceTree tree = test::litTree(device(), voxels, 4);
-    DeviceEnvironment light = constantLight(1.0F);
+    DeviceEnvironment light = test::constantSky(glm::vec3(1.0F));
     const ViewCamera view = ViewCamera::lookAt({22.0, 18.0, 26.0}, {8.0, 8.0, 8.0}, 0.4);
     Camera camera;
     const HdrImage noisy = camera.noisy(tree, light, view, 32, {.bounces = 1});
@@ -244,7 +240,7 @@ TEST(Denoiser, ColoursDoNotBleed)
 TEST(Denoiser, EarlierPicturesOfTheSamePlaceHelp)
 {
     const DeviceTree tree = room();
-    DeviceEnvironment light = constantLight(0.05F);
+    DeviceEnvironment light = test::constantSky(glm::vec3(0.05F));
     const PathOptions options = {.bounces = 3};
     const double alone = squaredError(Camera().denoised(tree, light, intoTheRoom(), 2, options), truth());
     Camera camera;
@@ -259,8 +255,8 @@ TEST(Denoiser, EarlierPicturesOfTheSamePlaceHelp)
 TEST(Denoiser, OtherPicturesDoNotCount)
 {
     const DeviceTree tree = room();
-    DeviceEnvironment light = constantLight(0.05F);
-    DeviceEnvironment other_light = constantLight(0.5F);
+    DeviceEnvironment light = test::constantSky(glm::vec3(0.05F));
+    DeviceEnvironment other_light = test::constantSky(glm::vec3(0.5F));
     const PathOptions options = {.bounces = 1, .seed = 7};
     PathOptions later = options; // with the seed that the second picture gets
     later.seed = 8;
@@ -315,7 +311,7 @@ TEST(Denoiser, SmallPicturesAndEmptyTrees)
 {
     const DeviceTree tree = room();
     const DeviceTree nothing = test::litTree(device(), {}, 3);
-    DeviceEnvironment light = constantLight(0.25F);
+    DeviceEnvironment light = test::constantSky(glm::vec3(0.25F));
     for (const glm::uvec2 size : {glm::uvec2(1, 1), glm::uvec2(1, 9), glm::uvec2(17, 2)})
     {
         Camera camera(size.x, size.y);

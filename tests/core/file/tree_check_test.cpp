@@ -42,6 +42,16 @@ gpu::Node& leaf(TreeData& tree, std::uint32_t number)
     return tree.nodes[tree.levels.back().first_node + number];
 }
 
+// Packs the attributes of a tree, then breaks it.
+std::function<void(TreeData&)> packed(AttributeFormat format, const std::function<void(TreeData&)>& break_tree)
+{
+    return [format, break_tree](TreeData& tree)
+    {
+        tree = packedTree(tree, format);
+        break_tree(tree);
+    };
+}
+
 const std::vector<TreeFault>& treeFaults()
 {
     constexpr bool kOctree = false;
@@ -121,61 +131,22 @@ const std::vector<TreeFault>& treeFaults()
         {"FormatUnknown", kOctree, [](auto& t) { t.packed.format = static_cast<AttributeFormat>(9); },
          "unknown format"},
         {"WordsWithoutFormat", kOctree, [](auto& t) { t.packed.nodes.push_back(0); }, "0 and 1 words"},
-        {"PackedVoxelMissing", kDag,
-         [](auto& t)
-         {
-             t = packedTree(t, AttributeFormat::Bytes4);
-             t.packed.voxels.pop_back();
-         },
+        {"PackedVoxelMissing", kDag, packed(AttributeFormat::Bytes4, [](auto& t) { t.packed.voxels.pop_back(); }),
          "packed attributes of voxels and nodes take"},
-        {"PackedNodeTooMany", kOctree,
-         [](auto& t)
-         {
-             t = packedTree(t, AttributeFormat::Bytes4);
-             t.packed.nodes.push_back(0);
-         },
+        {"PackedNodeTooMany", kOctree, packed(AttributeFormat::Bytes4, [](auto& t) { t.packed.nodes.push_back(0); }),
          "packed attributes of voxels and nodes take"},
-        {"PackedNormalX", kOctree,
-         [](auto& t)
-         {
-             t = packedTree(t, AttributeFormat::Bytes4);
-             t.packed.voxels[7] = 0x00800000U;
-         },
+        {"PackedNormalX", kOctree, packed(AttributeFormat::Bytes4, [](auto& t) { t.packed.voxels[7] = 0x00800000U; }),
          "attribute 7 of the voxels has a normal outside"},
-        {"PackedNormalY", kDag,
-         [](auto& t)
-         {
-             t = packedTree(t, AttributeFormat::Bytes4);
-             t.packed.nodes[2] = 0x80000000U;
-         },
+        {"PackedNormalY", kDag, packed(AttributeFormat::Bytes4, [](auto& t) { t.packed.nodes[2] = 0x80000000U; }),
          "attribute 2 of the nodes has a normal outside"},
         {"BlockMissing", kDag,
-         [](auto& t)
-         {
-             t = packedTree(t, AttributeFormat::Blocks);
-             t.packed.voxels.resize(t.packed.voxels.size() - 6);
-         },
+         packed(AttributeFormat::Blocks, [](auto& t) { t.packed.voxels.resize(t.packed.voxels.size() - 6); }),
          "packed attributes of voxels and nodes take"},
-        {"BlockCut", kOctree,
-         [](auto& t)
-         {
-             t = packedTree(t, AttributeFormat::Blocks);
-             t.packed.voxels.pop_back();
-         },
+        {"BlockCut", kOctree, packed(AttributeFormat::Blocks, [](auto& t) { t.packed.voxels.pop_back(); }),
          "packed attributes of voxels and nodes take"},
-        {"BlockScale", kDag,
-         [](auto& t)
-         {
-             t = packedTree(t, AttributeFormat::Blocks);
-             t.packed.voxels[6 * 3 + 2] |= 127U << 21;
-         },
+        {"BlockScale", kDag, packed(AttributeFormat::Blocks, [](auto& t) { t.packed.voxels[6 * 3 + 2] |= 127U << 21; }),
          "block 3 of the voxels has a scale outside"},
-        {"BlockNodes", kOctree,
-         [](auto& t)
-         {
-             t = packedTree(t, AttributeFormat::Blocks);
-             t.packed.nodes[4] = 0x80000000U;
-         },
+        {"BlockNodes", kOctree, packed(AttributeFormat::Blocks, [](auto& t) { t.packed.nodes[4] = 0x80000000U; }),
          "attribute 4 of the nodes has a normal outside"},
         {"EmissionScaleZero", kOctree, [](auto& t) { t.emission_scale = 0; }, "scale of emission"},
         {"EmissionScaleInfinite", kOctree, [](auto& t) { t.emission_scale = std::numeric_limits<float>::infinity(); },
@@ -199,9 +170,7 @@ const std::vector<TreeFault>& treeFaults()
     return faults;
 }
 
-class CheckTreeFault : public testing::TestWithParam<TreeFault>
-{
-};
+using CheckTreeFault = testing::TestWithParam<TreeFault>;
 
 INSTANTIATE_TEST_SUITE_P(Tree, CheckTreeFault, testing::ValuesIn(treeFaults()),
                          [](const auto& fault) { return std::string(fault.param.name); });

@@ -67,9 +67,7 @@ Sums sumsOf(const Scene& scene, const Grid& grid, AttributeFormat format)
     return sums;
 }
 
-class ZvoBytes : public testing::TestWithParam<AttributeFormat>
-{
-};
+using ZvoBytes = testing::TestWithParam<AttributeFormat>;
 
 INSTANTIATE_TEST_SUITE_P(Formats, ZvoBytes,
                          testing::Values(AttributeFormat::None, AttributeFormat::Bytes4, AttributeFormat::Bytes8,

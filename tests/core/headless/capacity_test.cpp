@@ -4,18 +4,17 @@
 #include "core/base/kernels.h"
 #include "core/headless/pipeline.h"
 #include "core/scene/camera.h"
-#include "core/trace/trace.h"
 #include "io/gltf/gltf_loader.h"
 #include "runtime/octree_sha256.h"
 #include "support/device.h"
 #include "support/engine_device.h"
+#include "support/errors.h"
 #include "support/materials_scene.h"
+#include "support/pictures.h"
 #include "support/scenes.h"
 #include "zvo/error.h"
 
 #include <gtest/gtest.h>
-
-#include <regex>
 
 namespace zvo
 {
@@ -174,16 +173,8 @@ LimitedRun runUnder(std::uint64_t limit, const Scene& scene, std::uint32_t depth
         const Grid grid = Grid::around(scene.bounds(), depth);
         const BuildResult result = buildOctree(limited, gpu_scene, grid, {Coverage::Thin, attributes, {}});
         run.sha = octreeSha256(limited, result.octree);
-        NodePaths paths(limited.device());
-        TraceBuffers buffers(limited.device(), 64, 48);
         const TraceCamera camera = traceCamera(ViewCamera::framing(scene, 64.0 / 48.0), grid, 48);
-        limited.run(
-            [&](vk::FrameGraph& graph)
-            {
-                buildNodePaths(graph, result.octree, paths);
-                trace(graph, result.octree, paths, camera, {}, buffers);
-            });
-        run.image = limited.download(buffers.image);
+        run.image = test::takePicture(limited, result.octree, camera, 64, 48, {}).image;
     }
     catch (const Error& error)
     {
@@ -193,14 +184,6 @@ LimitedRun runUnder(std::uint64_t limit, const Scene& scene, std::uint32_t depth
     run.peak_bytes = limited.device().memory().peakHeldBytes();
     EXPECT_LE(limited.device().memory().peakBytes(), run.peak_bytes);
     return run;
-}
-
-std::uint64_t sizeNeeded(const std::string& error)
-{
-    std::smatch found;
-    const bool matches = std::regex_search(error, found, std::regex("needs ([0-9]+) bytes in all"));
-    EXPECT_TRUE(matches) << error;
-    return matches ? std::stoull(found[1]) : 0;
 }
 
 void expectLimitsAreKept(const Scene& scene, std::uint32_t depth, bool attributes)
@@ -223,7 +206,7 @@ void expectLimitsAreKept(const Scene& scene, std::uint32_t depth, bool attribute
         }
         EXPECT_FALSE(succeeded) << "a smaller limit had sufficed: " << run.error;
         EXPECT_EQ(run.error.find('\n'), std::string::npos);
-        EXPECT_GT(sizeNeeded(run.error), limit) << run.error;
+        EXPECT_GT(test::bytesNeeded(run.error), limit) << run.error;
         ++failure_count;
     }
     EXPECT_TRUE(succeeded);
@@ -252,7 +235,7 @@ TEST(MemoryLimit, RaisedToTheSizeNeededGetsThroughInAFewSteps)
         }
         EXPECT_NE(run.error, last);
         last = run.error;
-        const std::uint64_t needed = sizeNeeded(run.error);
+        const std::uint64_t needed = test::bytesNeeded(run.error);
         ASSERT_GT(needed, limit);
         limit = needed;
     }

@@ -17,6 +17,7 @@
 #include "support/device.h"
 #include "support/failing_vulkan.h"
 #include "support/materials_scene.h"
+#include "support/pictures.h"
 #include "support/scenes.h"
 #include "support/sweep.h"
 #include "support/zvo_parts.h"
@@ -88,19 +89,12 @@ std::string work(vk::HeadlessDevice& device, const Job& job)
         const Grid grid = Grid::around(job.scene.bounds(), 4);
         const DeviceTree octree =
             buildOctree(device, gpu_scene, grid, {Coverage::Thin, job.attributes, job.capacities}).octree;
-        NodePaths paths(device.device());
-        TraceBuffers buffers(device.device(), kEdge, kEdge);
         TraceOptions options;
         options.shadows = job.attributes;
         const TraceCamera camera = traceCamera(ViewCamera::framing(job.scene, 1.0), grid, kEdge);
-        device.run(
-            [&](vk::FrameGraph& graph)
-            {
-                buildNodePaths(graph, octree, paths);
-                trace(graph, octree, paths, camera, options, buffers);
-            });
+        const test::Picture picture = test::takePicture(device, octree, camera, kEdge, kEdge, options);
         result = octreeSha256(device, octree);
-        for (const gpu::uint pixel : device.download(buffers.image))
+        for (const gpu::uint pixel : picture.image)
         {
             result += fmt::format(" {:x}", pixel);
         }

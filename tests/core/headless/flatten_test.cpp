@@ -5,6 +5,7 @@
 #include "core/file/tree_check.h"
 #include "core/headless/tree_download.h"
 #include "support/dynamic_scenery.h"
+#include "support/dynamic_updates.h"
 #include "support/edit_machine.h"
 #include "support/engine_device.h"
 #include "support/tree_samples.h"
@@ -52,14 +53,8 @@ TEST(FlattenTree, OfWhatWasJustBuiltIsWhatIsDownloaded)
         const TreeData flat = flattenTree(device(), uploaded);
         EXPECT_EQ(checkTree(flat), std::nullopt) << sample.name;
         EXPECT_EQ(flat.structure, TreeStructure::Svo);
-        if (sample.tree.structure == TreeStructure::Svo)
-        {
-            EXPECT_EQ(test::treeDifference(flat, sample.tree), "") << sample.name;
-        }
-        else
-        {
-            EXPECT_EQ(test::treeDifference(test::dagOf(flat), sample.tree), "") << sample.name;
-        }
+        const bool is_dag = sample.tree.structure == TreeStructure::Svdag;
+        EXPECT_EQ(test::treeDifference(is_dag ? test::dagOf(flat) : flat, sample.tree), "") << sample.name;
     }
 }
 
@@ -72,12 +67,7 @@ TEST(FlattenTree, OfMergedObjectsIsWhatVoxelizingEverythingGives)
         DynamicOctree octree(device(), scenery.buildStatic(setting), setting.options(scenery.emissionScale()));
         const test::Item item = {1, {test::Placement::Kind::Turned, {1, 2, 1}}};
         octree.add(scenery.object(item.mesh, setting.attributes), scenery.poseOf(item));
-        for (bool first = true; first || octree.needsUpdate(); first = false)
-        {
-            const std::uint64_t frame = octree.beginFrame();
-            device().run([&](vk::FrameGraph& graph) { octree.update(graph); });
-            octree.frameDone(frame);
-        }
+        test::updateAll(device(), octree);
         const TreeData expected = downloadTree(device(), scenery.rebuilt(setting, true, {item})->octree);
         EXPECT_EQ(test::treeDifference(flattenTree(device(), octree.tree()), expected), "");
     }

@@ -3,6 +3,7 @@
 #include "core/headless/compress.h"
 #include "core/headless/pipeline.h"
 #include "core/headless/svdag_forest.h"
+#include "support/dag_compare.h"
 #include "support/engine_device.h"
 #include "support/materials_scene.h"
 #include "support/morton_index.h"
@@ -20,30 +21,6 @@ namespace
 {
 
 using test::device;
-
-template <typename T> void expectSame(const vk::BufferOf<T>& a, const vk::BufferOf<T>& b, const char* what)
-{
-    ASSERT_EQ(a.count(), b.count()) << what;
-    const std::vector<T> of_a = device().download(a);
-    const std::vector<T> of_b = device().download(b);
-    EXPECT_TRUE(of_a.empty() || std::memcmp(of_a.data(), of_b.data(), of_a.size() * sizeof(T)) == 0) << what;
-}
-
-void expectSame(const DeviceTree& a, const DeviceTree& b)
-{
-    ASSERT_EQ(a.node_count, b.node_count);
-    EXPECT_EQ(a.lists.entry_count, b.lists.entry_count);
-    EXPECT_EQ(a.lists.long_entry_count, b.lists.long_entry_count);
-    ASSERT_EQ(a.levels.size(), b.levels.size());
-    for (std::size_t level = 0; level < a.levels.size(); ++level)
-    {
-        EXPECT_EQ(a.levels[level].first_node, b.levels[level].first_node);
-        EXPECT_EQ(a.levels[level].node_count, b.levels[level].node_count);
-    }
-    expectSame(a.nodes, b.nodes, "nodes and lists");
-    expectSame(a.lists.before, b.lists.before, "before");
-    expectSame(a.lists.voxels_before_leaf, b.lists.voxels_before_leaf, "voxels before leaves");
-}
 
 void expectTilesMakeTheWhole(const Scene& scene, std::uint32_t depth, std::uint32_t tile_depth, bool ranks)
 {
@@ -73,7 +50,7 @@ void expectTilesMakeTheWhole(const Scene& scene, std::uint32_t depth, std::uint3
     EXPECT_EQ(forest.topNodeCount(), top_nodes);
     const DeviceTree dag = forest.finish(ranks);
     EXPECT_EQ(dag.lists.before.count() != 0, ranks && grid.nodeLevels() > 2);
-    expectSame(dag, expected);
+    EXPECT_EQ(test::difference(device(), dag, expected), "");
 }
 
 TEST(SvdagForest, OfTilesIsTheDagOfTheWhole)

@@ -11,6 +11,7 @@
 #include "support/engine_device.h"
 #include "support/materials_scene.h"
 #include "support/scenes.h"
+#include "support/tree_samples.h"
 #include "zvo/error.h"
 
 #include <gtest/gtest.h>
@@ -25,34 +26,6 @@ namespace
 {
 
 using test::device;
-
-template <typename T> void expectSame(const std::vector<T>& a, const std::vector<T>& b, const char* what)
-{
-    ASSERT_EQ(a.size(), b.size()) << what;
-    EXPECT_TRUE(a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0) << what;
-}
-
-void expectSame(const TreeData& a, const TreeData& b)
-{
-    EXPECT_EQ(a.structure, b.structure);
-    EXPECT_EQ(a.grid.depth, b.grid.depth);
-    EXPECT_EQ(a.grid.origin, b.grid.origin);
-    EXPECT_EQ(a.voxel_count, b.voxel_count);
-    EXPECT_EQ(a.octree_node_count, b.octree_node_count);
-    EXPECT_EQ(a.long_entry_count, b.long_entry_count);
-    EXPECT_EQ(a.emission_scale, b.emission_scale);
-    expectSame(a.nodes, b.nodes, "nodes");
-    expectSame(a.lists, b.lists, "lists");
-    expectSame(a.before, b.before, "before");
-    expectSame(a.voxels_before_leaf, b.voxels_before_leaf, "voxels before leaves");
-    expectSame(a.voxel_attributes, b.voxel_attributes, "attributes of voxels");
-    expectSame(a.node_attributes, b.node_attributes, "attributes of nodes");
-    EXPECT_EQ(a.attributeFormat(), b.attributeFormat());
-    expectSame(a.packed.voxels, b.packed.voxels, "packed attributes of voxels");
-    expectSame(a.packed.nodes, b.packed.nodes, "packed attributes of nodes");
-    expectSame(a.emission_words, b.emission_words, "emission words");
-    expectSame(a.emission, b.emission, "emission");
-}
 
 TreeData wholeDag(vk::HeadlessDevice& on, const GpuScene& scene, const Grid& grid, AttributeFormat attributes)
 {
@@ -90,7 +63,7 @@ TEST(TiledBuild, IsTheWholeWhateverTheTiles)
                                             last = done;
                                         }};
                 const TiledResult tiled = buildByTiles(device(), uploaded, grid, options);
-                expectSame(tiled.tree, expected);
+                EXPECT_EQ(test::treeDifference(tiled.tree, expected), "");
                 EXPECT_EQ(tiled.tile_count > 1, tile_depth < depth);
                 EXPECT_EQ(last >= 0, tile_depth < depth);
             }
@@ -113,7 +86,7 @@ TEST(TiledBuild, TakesSmallerTilesWhereMemoryIsShort)
         const GpuScene uploaded = uploadScene(small, scene, true);
         EXPECT_THROW(wholeDag(small, uploaded, grid, AttributeFormat::Blocks), Error);
         const TiledResult tiled = buildByTiles(small, uploaded, grid, {.attributes = AttributeFormat::Blocks});
-        expectSame(tiled.tree, expected);
+        EXPECT_EQ(test::treeDifference(tiled.tree, expected), "");
         EXPECT_GT(tiled.tile_count, tile_count);
         EXPECT_LE(small.device().memory().peakBytes(), budget);
         tile_count = tiled.tile_count;

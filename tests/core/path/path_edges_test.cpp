@@ -7,6 +7,7 @@
 #include "io/scene/animated_scene.h"
 #include "support/engine_device.h"
 #include "support/lit_voxels.h"
+#include "support/path_pictures.h"
 #include "support/scenes.h"
 
 #include <gtest/gtest.h>
@@ -57,11 +58,6 @@ private:
     PathTracer m_tracer;
 };
 
-DeviceEnvironment constantLight(float radiance)
-{
-    return {device().device(), HdrImage{2, 1, std::vector(2, glm::vec3(radiance))}, 0.0, 1.0};
-}
-
 bool isConstant(const HdrImage& image, const glm::vec3& value, float tolerance)
 {
     return std::ranges::all_of(image.texels, [&](const glm::vec3& texel)
@@ -87,7 +83,7 @@ TEST(PathEdges, NoVoxelsShowTheMap)
 {
     DeviceTree empty;
     empty.grid.depth = 4;
-    DeviceEnvironment light = constantLight(0.75F);
+    DeviceEnvironment light = test::constantSky(glm::vec3(0.75F));
     Pictures pictures(empty, ViewCamera::lookAt({20, 20, 20}, {0, 0, 0}, 0.7), 9);
     EXPECT_TRUE(isConstant(pictures.take(light, {}), glm::vec3(0.75F), 1e-6F));
 }
@@ -96,7 +92,7 @@ TEST(PathEdges, NoVoxelsShowTheMap)
 TEST(PathEdges, EveryPixelOfALargePictureIsTracedOnce)
 {
     const DeviceTree tree = oneVoxel(3, glm::vec3(1.0F));
-    DeviceEnvironment light = constantLight(0.75F);
+    DeviceEnvironment light = test::constantSky(glm::vec3(0.75F));
     const ViewCamera view = ViewCamera::lookAt({7.5, 7.5, 30.0}, {7.5, 7.5, 7.5}, 0.1);
     const HdrImage image = Pictures(tree, view, 730).take(light, {.bounces = 0}, 1);
     std::size_t lit = 0;
@@ -118,7 +114,7 @@ TEST(PathEdges, OneVoxelIsSeenInEveryDepth)
     {
         const DeviceTree tree = oneVoxel(depth, {0.25F, 0.5F, 1.5F});
         const glm::dvec3 middle(std::ldexp(1.0, static_cast<int>(depth)) - 0.5);
-        DeviceEnvironment light = constantLight(0.0F);
+        DeviceEnvironment light = test::constantSky(glm::vec3(0.0F));
         Pictures pictures(tree, ViewCamera::lookAt(middle + glm::dvec3(2.0, 3.0, 4.0), middle, 0.5), 7);
         const HdrImage image = pictures.take(light, {});
         EXPECT_EQ(image.texels[3 * 7 + 3], glm::vec3(0.25F, 0.5F, 1.5F)) << depth;
@@ -130,7 +126,7 @@ TEST(PathEdges, OneVoxelIsSeenInEveryDepth)
 TEST(PathEdges, ACameraInAVoxelSeesItsEmission)
 {
     const DeviceTree tree = oneVoxel(3, {0.5F, 1.0F, 1.5F});
-    DeviceEnvironment light = constantLight(1.0F);
+    DeviceEnvironment light = test::constantSky(glm::vec3(1.0F));
     Pictures pictures(tree, ViewCamera::lookAt({7.5, 7.25, 7.5}, {0, 0, 0}, 0.7), 6);
     EXPECT_TRUE(isConstant(pictures.take(light, {}), {0.5F, 1.0F, 1.5F}, 0.0F));
 }
@@ -143,7 +139,7 @@ TEST(PathEdges, WithoutBouncesOnlyLightItselfIsSeen)
     test::addBox(voxels, {0, 1, 0}, {8, 2, 8}, {{}, glm::uvec3(255), glm::vec3(1.25F)});
     const DeviceTree lit = test::litTree(device(), voxels, 3);
     const ViewCamera above = ViewCamera::lookAt({4.0, 12.0, 4.01}, {4.0, 1.0, 4.0}, 0.2);
-    DeviceEnvironment light = constantLight(1.0F);
+    DeviceEnvironment light = test::constantSky(glm::vec3(1.0F));
     EXPECT_TRUE(isConstant(Pictures(dark, above, 6).take(light, {.bounces = 0}), glm::vec3(0.0F), 0.0F));
     EXPECT_TRUE(isConstant(Pictures(lit, above, 6).take(light, {.bounces = 0}), glm::vec3(1.25F), 0.0F));
 }
@@ -151,7 +147,7 @@ TEST(PathEdges, WithoutBouncesOnlyLightItselfIsSeen)
 TEST(PathEdges, WithoutLightAllIsBlack)
 {
     const DeviceTree tree = oneVoxel(3, glm::vec3(0.0F));
-    DeviceEnvironment light = constantLight(0.0F);
+    DeviceEnvironment light = test::constantSky(glm::vec3(0.0F));
     Pictures pictures(tree, ViewCamera::lookAt({9.0, 11.0, 12.0}, {7.5, 7.5, 7.5}, 0.2), 6);
     EXPECT_TRUE(isConstant(pictures.take(light, {}), glm::vec3(0.0F), 0.0F));
 }
@@ -164,7 +160,7 @@ TEST(PathEdges, ALensBlursWhatIsOutOfFocus)
     test::addBox(voxels, {4, 0, 0}, {8, 8, 1}, {{}, glm::uvec3(0), glm::vec3(0.0F)});
     const DeviceTree tree = test::litTree(device(), voxels, 3);
     const ViewCamera view = ViewCamera::lookAt({4.0, 4.0, 11.0}, {4.0, 4.0, 1.0}, 0.4);
-    DeviceEnvironment dark = constantLight(0.0F);
+    DeviceEnvironment dark = test::constantSky(glm::vec3(0.0F));
     Pictures pictures(tree, view, 16);
     const auto mixed = [](const HdrImage& image)
     {
@@ -184,7 +180,7 @@ TEST(PathEdges, OrthographicCamerasSeeTheSameLight)
     ViewCamera view = ViewCamera::lookAt({7.5, 7.5, 30.0}, {7.5, 7.5, 7.5}, 0.2);
     view.orthographic = true;
     view.half_height = 2.0;
-    DeviceEnvironment light = constantLight(0.0F);
+    DeviceEnvironment light = test::constantSky(glm::vec3(0.0F));
     const HdrImage image = Pictures(tree, view, 16).take(light, {});
     for (std::uint32_t i = 0; i < 256; ++i)
     {
@@ -195,9 +191,7 @@ TEST(PathEdges, OrthographicCamerasSeeTheSameLight)
 
 // No pixel of any scene is infinite, NaN or negative, whatever the seed. By default pictures are small, and each seed
 // has one of the lights; with ZVO_TEST_ALL_LIGHTS=1 every seed has all lights, with larger pictures of finer voxels.
-class PathScenes : public testing::TestWithParam<std::string>
-{
-};
+using PathScenes = testing::TestWithParam<std::string>;
 
 bool hasAllLights()
 {
@@ -242,7 +236,7 @@ std::vector<DeviceEnvironment> allLights()
 {
     std::vector<DeviceEnvironment> lights;
     lights.emplace_back(device().device()).setSun({.direction = {-0.6, 0.75, 0.45}, .irradiance = 2.2 * kSunColor});
-    lights.push_back(constantLight(0.0F));
+    lights.push_back(test::constantSky(glm::vec3(0.0F)));
     lights.emplace_back(device().device(), hardMap(), 0.3, 1.0);
     for (const char* name : {"kloppenheim_05_1k.hdr", "phalzer_forest_01_1k.hdr"})
     {

@@ -5,6 +5,7 @@
 #include "core/upload/gpu_scene.h"
 #include "support/engine_device.h"
 #include "support/lit_voxels.h"
+#include "support/same_bytes.h"
 #include "support/scenes.h"
 
 #include <gtest/gtest.h>
@@ -19,6 +20,7 @@ namespace
 
 using test::device;
 using test::LitVoxel;
+using test::sameBytes;
 
 /// What a form makes of a number of samples.
 struct FormPicture
@@ -32,11 +34,6 @@ struct FormPicture
     friend bool operator==(const FormPicture& a, const FormPicture& b)
     {
         return a.ray_count == b.ray_count && sameBytes(a.sums, b.sums) && sameBytes(a.features, b.features);
-    }
-
-    template <typename T> static bool sameBytes(const std::vector<T>& a, const std::vector<T>& b)
-    {
-        return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0;
     }
 };
 
@@ -91,7 +88,7 @@ void expectSame(const Motif& motif, PathOptions options)
     const FormPicture kernel = trace(motif, PathForm::OneKernel, options);
     EXPECT_TRUE(isLit(stages));
     EXPECT_TRUE(kernel == stages);
-    EXPECT_TRUE(FormPicture::sameBytes(plain.sums, stages.sums));
+    EXPECT_TRUE(sameBytes(plain.sums, stages.sums));
     EXPECT_EQ(kernel.capped_rays, 0U);
 }
 
@@ -203,14 +200,7 @@ TEST(PathForms, AreTheSameInPicturesOfSeveralDispatches)
 // A device that ends loops early loses paths, but not unnoticed.
 TEST(PathForms, WhatIsLostIsCounted)
 {
-    std::vector<LitVoxel> voxels;
-    test::addBox(voxels, {0, 0, 0}, {8, 8, 8}, {{}, glm::uvec3(255), glm::vec3(0.5F)});
-    std::erase_if(voxels,
-                  [](const LitVoxel& v) {
-                      return glm::all(glm::greaterThan(v.cell, glm::uvec3(0))) &&
-                             glm::all(glm::lessThan(v.cell, glm::uvec3(7)));
-                  });
-    const DeviceTree tree = test::litTree(device(), voxels, 3);
+    const DeviceTree tree = test::litTree(device(), test::roomOf({{}, glm::uvec3(255), glm::vec3(0.5F)}, 8), 3);
     DeviceEnvironment sky = skyWithSun();
     const Motif motif = {tree, sky, ViewCamera::lookAt({4.2, 4.1, 4.3}, {1.0, 2.0, 3.0}, 1.0), 24, 24};
     const FormPicture stages = trace(motif, PathForm::Stages, {.bounces = 96}, 1);

@@ -28,11 +28,7 @@ using test::LitVoxel;
 using test::luminanceOf;
 using test::PathPicture;
 using test::pictureOf;
-
-LitVoxel white()
-{
-    return {{}, glm::uvec3(255), glm::vec3(0.0F)};
-}
+using test::whiteVoxel;
 
 LitVoxel grey()
 {
@@ -48,15 +44,13 @@ ViewCamera outside()
 TEST(PathFurnace, AWhiteCubeCannotBeSeen)
 {
     std::vector<LitVoxel> voxels;
-    test::addBox(voxels, {2, 2, 2}, {6, 6, 6}, white());
+    test::addBox(voxels, {2, 2, 2}, {6, 6, 6}, whiteVoxel());
     const DeviceTree tree = test::litTree(device(), voxels, 3);
     DeviceEnvironment sky = constantSky({0.5F, 1.0F, 2.0F});
     EXPECT_LT(pictureOf(tree, sky, outside(), 16, 1, {.bounces = 0}).mean.g, 0.9) << "it is there";
     for (const LightSampling way : kWays)
     {
-        PathOptions options;
-        options.bounces = 1;
-        options.sampling = way;
+        const PathOptions options = {.bounces = 1, .sampling = way};
         const PathPicture picture = pictureOf(tree, sky, outside(), 8, 1024, options);
         EXPECT_NEAR(picture.mean.r, 0.5, 0.0005);
         EXPECT_NEAR(picture.mean.g, 1.0, 0.001);
@@ -68,18 +62,16 @@ TEST(PathFurnace, AWhiteCubeCannotBeSeen)
 TEST(PathFurnace, AWhiteBowlCannotBeSeen)
 {
     std::vector<LitVoxel> voxels;
-    test::addBox(voxels, {0, 0, 0}, {8, 1, 8}, white());
-    test::addBox(voxels, {0, 1, 0}, {1, 6, 8}, white());
-    test::addBox(voxels, {1, 1, 0}, {8, 4, 1}, white());
-    test::addBox(voxels, {3, 1, 3}, {5, 3, 5}, white());
+    test::addBox(voxels, {0, 0, 0}, {8, 1, 8}, whiteVoxel());
+    test::addBox(voxels, {0, 1, 0}, {1, 6, 8}, whiteVoxel());
+    test::addBox(voxels, {1, 1, 0}, {8, 4, 1}, whiteVoxel());
+    test::addBox(voxels, {3, 1, 3}, {5, 3, 5}, whiteVoxel());
     const DeviceTree tree = test::litTree(device(), voxels, 3);
     DeviceEnvironment sky = constantSky(glm::vec3(1.0F));
     EXPECT_LT(pictureOf(tree, sky, outside(), 16, 1, {.bounces = 0}).luminance, 0.6) << "it is there";
     for (const LightSampling way : kWays)
     {
-        PathOptions options;
-        options.bounces = 96;
-        options.sampling = way;
+        const PathOptions options = {.bounces = 96, .sampling = way};
         const PathPicture picture = pictureOf(tree, sky, outside(), 16, 128, options);
         EXPECT_NEAR(picture.luminance, 1.0, 0.001 + 3.0 * picture.error);
         EXPECT_LT(picture.error, 0.004);
@@ -90,7 +82,7 @@ TEST(PathFurnace, AWhiteBowlCannotBeSeen)
 // its bounces together.
 TEST(PathFurnace, AWhiteRoomIsAsBrightAsItsLight)
 {
-    LitVoxel wall = white();
+    LitVoxel wall = whiteVoxel();
     std::vector<LitVoxel> voxels = test::roomOf(wall, 6);
     std::erase_if(voxels, [](const LitVoxel& v)
                   { return v.cell.x == 5 && v.cell.y > 0 && v.cell.y < 5 && v.cell.z > 0 && v.cell.z < 5; });
@@ -131,10 +123,7 @@ TEST(PathEnergy, OfEachBounceIsThePowerOfTheAlbedo)
         for (std::uint32_t bounces = 0; bounces <= 4; ++bounces)
         {
             expected += 0.5 * std::pow(albedo, bounces);
-            PathOptions options;
-            options.bounces = bounces;
-            options.sampling = way;
-            const PathPicture picture = pictureOf(tree, sky, inside, 8, 512, options);
+            const PathPicture picture = pictureOf(tree, sky, inside, 8, 512, {.bounces = bounces, .sampling = way});
             EXPECT_NEAR(picture.luminance, expected, 1e-5 + 4.0 * picture.error) << bounces;
             EXPECT_LT(picture.error, 0.01);
         }
@@ -146,8 +135,8 @@ TEST(PathEnergy, OfEachBounceIsThePowerOfTheAlbedo)
 TEST(PathLight, OfASquareIsItsFormFactor)
 {
     std::vector<LitVoxel> voxels;
-    test::addBox(voxels, {0, 0, 0}, {16, 1, 16}, white());
-    LitVoxel lamp = white();
+    test::addBox(voxels, {0, 0, 0}, {16, 1, 16}, whiteVoxel());
+    LitVoxel lamp = whiteVoxel();
     lamp.emission = glm::vec3(1.5F);
     test::addBox(voxels, {6, 9, 6}, {10, 10, 10}, lamp);
     const DeviceTree tree = test::litTree(device(), voxels, 4);
@@ -159,9 +148,7 @@ TEST(PathLight, OfASquareIsItsFormFactor)
     const double factor = 4.0 / (2.0 * std::numbers::pi) * 2.0 * (x / root) * std::atan(x / root);
     for (const LightSampling way : kWays)
     {
-        PathOptions options;
-        options.bounces = 1;
-        options.sampling = way;
+        const PathOptions options = {.bounces = 1, .sampling = way};
         const PathPicture picture = pictureOf(tree, sky, view, 8, way == LightSampling::Chance ? 4096 : 512, options);
         EXPECT_NEAR(picture.luminance, 1.5 * factor, 0.01 * 1.5 * factor);
     }
@@ -178,9 +165,7 @@ TEST(PathLight, OfASunIsItsIrradiance)
     const ViewCamera view = ViewCamera::lookAt({4.0, 7.0, 4.001}, {4.0, 1.0, 4.0}, 0.3);
     for (const LightSampling way : {LightSampling::Both, LightSampling::Lights})
     {
-        PathOptions options;
-        options.bounces = 1;
-        options.sampling = way;
+        const PathOptions options = {.bounces = 1, .sampling = way};
         const PathPicture picture = pictureOf(tree, sky, view, 8, 64, options);
         const glm::dvec3 expected = test::albedoOf(grey()) * to_sun.y * glm::dvec3(2.0, 3.0, 4.0);
         EXPECT_LT(glm::length(picture.mean - expected), 0.01 * glm::length(expected));
@@ -195,7 +180,7 @@ std::vector<LitVoxel> room()
     test::addBox(voxels, {0, 1, 0}, {1, 6, 8}, {{}, {220, 60, 40}, glm::vec3(0.0F)});
     test::addBox(voxels, {7, 1, 0}, {8, 6, 6}, {{}, {60, 200, 40}, glm::vec3(0.0F)});
     test::addBox(voxels, {1, 1, 0}, {7, 6, 1}, grey());
-    test::addBox(voxels, {3, 1, 3}, {5, 3, 5}, white());
+    test::addBox(voxels, {3, 1, 3}, {5, 3, 5}, whiteVoxel());
     test::addBox(voxels, {2, 5, 3}, {4, 6, 4}, {{}, {128, 128, 128}, {1.5F, 1.25F, 0.5F}});
     test::addBox(voxels, {6, 2, 2}, {7, 3, 3}, {{}, {128, 128, 128}, {0.25F, 0.5F, 1.75F}});
     return voxels;
@@ -235,9 +220,7 @@ TEST(PathLight, IsThatOfAPathTracerOfBoxes)
     constexpr std::uint32_t kBounces = 3;
     const DeviceTree tree = test::litTree(device(), voxels, 3);
     DeviceEnvironment sky = roomEnvironment(0.7);
-    PathOptions options;
-    options.bounces = kBounces;
-    const PathPicture picture = pictureOf(tree, sky, intoTheRoom(), kEdge, 512, options);
+    const PathPicture picture = pictureOf(tree, sky, intoTheRoom(), kEdge, 512, {.bounces = kBounces});
     const oracle::BoxPaths expected =
         oracle::traceBoxPaths(boxes, roomSky, intoTheRoom().position, intoTheRoom().forward, intoTheRoom().right,
                               intoTheRoom().up, intoTheRoom().vertical_fov, kEdge, 600, kBounces);
@@ -257,23 +240,17 @@ TEST(PathLight, IsTheSameInEachWay)
     const DeviceTree plain = test::litTree(device(), room(), 3, false);
     DeviceEnvironment sky = roomEnvironment(0.0);
     sky.setSun({.direction = {0.5, 1.0, 0.7}, .irradiance = glm::dvec3(0.7), .angle = 0.2});
-    PathOptions options;
-    const PathPicture both = pictureOf(flagged, sky, intoTheRoom(), 16, 128, options);
-    EXPECT_EQ(pictureOf(plain, sky, intoTheRoom(), 16, 128, options).pixels, both.pixels);
+    const PathPicture both = pictureOf(flagged, sky, intoTheRoom(), 16, 128, {});
+    EXPECT_EQ(pictureOf(plain, sky, intoTheRoom(), 16, 128, {}).pixels, both.pixels);
     EXPECT_LT(both.error, 0.01 * both.luminance);
     const auto expectSame = [](const PathPicture& a, const PathPicture& b)
     { EXPECT_NEAR(a.luminance, b.luminance, 3.0 * std::hypot(a.error, b.error)); };
-    options.sampling = LightSampling::Chance;
-    const PathPicture chance = pictureOf(flagged, sky, intoTheRoom(), 16, 512, options);
-    options.sampling = LightSampling::Lights;
-    const PathPicture lights = pictureOf(flagged, sky, intoTheRoom(), 16, 512, options);
+    const PathPicture chance = pictureOf(flagged, sky, intoTheRoom(), 16, 512, {.sampling = LightSampling::Chance});
+    const PathPicture lights = pictureOf(flagged, sky, intoTheRoom(), 16, 512, {.sampling = LightSampling::Lights});
     expectSame(chance, both);
     expectSame(lights, both);
     expectSame(chance, lights);
-    options.sampling = LightSampling::Both;
-    options.roulette = true;
-    const PathPicture roulette = pictureOf(flagged, sky, intoTheRoom(), 16, 256, options);
-    expectSame(roulette, both);
+    expectSame(pictureOf(flagged, sky, intoTheRoom(), 16, 256, {.roulette = true}), both);
 }
 
 } // namespace

@@ -9,6 +9,7 @@
 #include "support/dynamic_updates.h"
 #include "support/engine_device.h"
 #include "support/octree_contents.h"
+#include "support/same_bytes.h"
 #include "support/scenes.h"
 
 #include <glm/ext/matrix_transform.hpp>
@@ -61,8 +62,7 @@ struct Traced
 
     friend bool operator==(const Traced& a, const Traced& b)
     {
-        return a.sums.size() == b.sums.size() && a.voxel_lights == b.voxel_lights &&
-               std::memcmp(a.sums.data(), b.sums.data(), a.sums.size() * sizeof(gpu::PixelSum)) == 0;
+        return a.voxel_lights == b.voxel_lights && test::sameBytes(a.sums, b.sums);
     }
 };
 
@@ -71,11 +71,9 @@ void addSamples(PathTracer& tracer, DeviceEnvironment& sky, const DeviceTree& tr
 {
     const ViewCamera view = ViewCamera::lookAt({30.0, 22.0, 35.0}, {8.0, 8.0, 8.0}, 0.7);
     const TraceCamera camera = traceCamera(view, tree.grid, 21);
-    PathOptions options;
-    options.bounces = 3;
     for (int i = 0; i < 2; ++i)
     {
-        device().run([&](vk::FrameGraph& graph) { tracer.addSample(graph, tree, sky, camera, options); });
+        device().run([&](vk::FrameGraph& graph) { tracer.addSample(graph, tree, sky, camera, {.bounces = 3}); });
     }
 }
 
@@ -126,6 +124,30 @@ TEST(PathTrees, PackedOctreesAndDagsLookTheSame)
     }
 }
 
+// An octree, or its DAG, with the sums that merging takes.
+DynamicOctree dynamicOf(const Scene& scene, bool compressed)
+{
+    DeviceTree tree = std::move(build(scene, 6).octree);
+    FragmentSums sums = std::move(tree.sums);
+    if (compressed)
+    {
+        tree = std::move(compress(device(), std::move(tree)).dag);
+    }
+    tree.sums = std::move(sums);
+    return {device(), std::move(tree), {.merge = MergeRule::Average, .emission_scale = kEmission}};
+}
+
+// The scene's instances where they stand.
+Pose poseOf(const Scene& scene)
+{
+    Pose pose;
+    for (const Instance& instance : scene.instances)
+    {
+        pose.transforms.push_back(instance.transform);
+    }
+    return pose;
+}
+
 // An object that is merged with an octree or a DAG looks as if all had been built at once.
 TEST(PathTrees, OverlaysLookAsIfBuiltAtOnce)
 {
@@ -133,27 +155,12 @@ TEST(PathTrees, OverlaysLookAsIfBuiltAtOnce)
     const Scene object = litTriangles(9);
     Scene both = fixed;
     both.append(Scene(object));
-    Pose pose;
-    for (const Instance& instance : object.instances)
-    {
-        pose.transforms.push_back(instance.transform);
-    }
     for (const bool compressed : {false, true})
     {
         const Traced expected = tracePaths(build(both, 6).octree);
-        BuildResult built = build(fixed, 6);
-        FragmentSums sums = std::move(built.octree.sums);
-        DeviceTree base =
-            compressed ? std::move(compress(device(), std::move(built.octree)).dag) : std::move(built.octree);
-        base.sums = std::move(sums);
-        DynamicOctree octree(device(), std::move(base), {.merge = MergeRule::Average, .emission_scale = kEmission});
-        octree.add(uploadDynamicMesh(device(), object, true, kEmission), pose);
-        do
-        {
-            const std::uint64_t frame = octree.beginFrame();
-            device().run([&](vk::FrameGraph& graph) { octree.update(graph); });
-            octree.frameDone(frame);
-        } while (octree.needsUpdate());
+        DynamicOctree octree = dynamicOf(fixed, compressed);
+        octree.add(uploadDynamicMesh(device(), object, true, kEmission), poseOf(object));
+        test::updateAll(device(), octree);
         EXPECT_EQ(tracePaths(octree.tree()), expected) << compressed;
     }
 }
@@ -173,24 +180,10 @@ TEST(PathTrees, LightsFollowMoversAndStrokes)
         }
         return moved;
     };
-    const auto poseOf = [](const Scene& scene)
-    {
-        Pose pose;
-        for (const Instance& instance : scene.instances)
-        {
-            pose.transforms.push_back(instance.transform);
-        }
-        return pose;
-    };
     for (const bool compressed : {false, true})
     {
         SCOPED_TRACE(compressed);
-        BuildResult built = build(fixed, 6);
-        FragmentSums sums = std::move(built.octree.sums);
-        DeviceTree base =
-            compressed ? std::move(compress(device(), std::move(built.octree)).dag) : std::move(built.octree);
-        base.sums = std::move(sums);
-        DynamicOctree octree(device(), std::move(base), {.merge = MergeRule::Average, .emission_scale = kEmission});
+        DynamicOctree octree = dynamicOf(fixed, compressed);
         DeviceEnvironment sky(device().device());
         PathTracer tracer(device().device());
         Traced last = tracePaths(tracer, sky, octree.tree());

@@ -141,39 +141,55 @@ protected:
             });
     }
 
+    template <typename Copy, typename Made>
+    void expectToArrive(VkFormat format, TexelFormat texels, const Copy& copy, const Made& made);
+
     DeviceTree m_octree;
     NodePaths m_paths;
 };
+
+// Makes pictures and their depths, whose buffers take a texel format, of the size of every place, and copies from them
+// into images of a format. copy(graph, buffers, depth, target, size) records the copy, made(buffers, depth) has the
+// words that it should copy.
+template <typename Copy, typename Made>
+void ImageTargets::expectToArrive(VkFormat format, TexelFormat texels, const Copy& copy, const Made& made)
+{
+    HostImage image(device(), format, kExtent, kMipLevels, kLayers);
+    fillWithOthers(image);
+    Contents expected(image);
+    for (const VkImageLayout layout : kLayouts)
+    {
+        for (const Place& place : kPlaces)
+        {
+            SCOPED_TRACE(testing::Message() << "format " << format << ", layout " << layout << ", mip level "
+                                            << place.mip_level << ", " << place.size.width << " pixels wide");
+            TraceBuffers buffers(device().device(), place.size.width, place.size.height, texels);
+            vk::BufferOf<float> depth(device().device(), "depth", buffers.hits.count());
+            trace(buffers, depth,
+                  [&](vk::FrameGraph& graph)
+                  {
+                      image.beginCopies(graph, layout);
+                      copy(graph, buffers, depth, targetAt(image, format, layout, place), place.size);
+                      image.endCopies(graph);
+                  });
+            const Words words = made(buffers, depth);
+            EXPECT_EQ(words.size(), buffers.hits.count() * image.texelWords());
+            EXPECT_GE(std::set<gpu::uint>(words.begin(), words.end()).size(), buffers.hits.count() / 16);
+            expected.place(image, place, words);
+            EXPECT_TRUE(Contents(image) == expected);
+        }
+    }
+}
 
 TEST_F(ImageTargets, PicturesArriveInEveryFormatAtAnyPlace)
 {
     for (const VkFormat format : kColorFormats)
     {
-        HostImage image(device(), format, kExtent, kMipLevels, kLayers);
-        fillWithOthers(image);
-        Contents expected(image);
-        for (const VkImageLayout layout : kLayouts)
-        {
-            for (const Place& place : kPlaces)
-            {
-                SCOPED_TRACE(testing::Message() << "format " << format << ", layout " << layout << ", mip level "
-                                                << place.mip_level << ", " << place.size.width << " pixels wide");
-                TraceBuffers buffers(device().device(), place.size.width, place.size.height, texelFormat(format));
-                vk::BufferOf<float> depth(device().device(), "depth", buffers.hits.count());
-                trace(buffers, depth,
-                      [&](vk::FrameGraph& graph)
-                      {
-                          image.beginCopies(graph, layout);
-                          copyToImage(graph, buffers, targetAt(image, format, layout, place));
-                          image.endCopies(graph);
-                      });
-                const Words picture = device().download(buffers.image);
-                EXPECT_EQ(picture.size(), buffers.hits.count() * image.texelWords());
-                EXPECT_GE(std::set<gpu::uint>(picture.begin(), picture.end()).size(), buffers.hits.count() / 16);
-                expected.place(image, place, picture);
-                EXPECT_TRUE(Contents(image) == expected);
-            }
-        }
+        expectToArrive(
+            format, texelFormat(format),
+            [](vk::FrameGraph& graph, const TraceBuffers& buffers, const auto&, const ImageTarget& target, PictureSize)
+            { copyToImage(graph, buffers, target); },
+            [](const TraceBuffers& buffers, const auto&) { return device().download(buffers.image); });
     }
 }
 
@@ -181,34 +197,19 @@ TEST_F(ImageTargets, DepthArrivesInEveryFormatAtAnyPlace)
 {
     for (const VkFormat format : kDepthFormats)
     {
-        HostImage image(device(), format, kExtent, kMipLevels, kLayers);
-        fillWithOthers(image);
-        Contents expected(image);
-        for (const VkImageLayout layout : kLayouts)
-        {
-            for (const Place& place : kPlaces)
+        expectToArrive(
+            format, TexelFormat::Rgba8,
+            [](vk::FrameGraph& graph, const auto&, const vk::BufferOf<float>& depth, const ImageTarget& target,
+               PictureSize size) { copyDepthToImage(graph, depth, size, target); },
+            [](const auto&, const vk::BufferOf<float>& depth)
             {
-                SCOPED_TRACE(testing::Message() << "format " << format << ", layout " << layout << ", mip level "
-                                                << place.mip_level << ", " << place.size.width << " pixels wide");
-                TraceBuffers buffers(device().device(), place.size.width, place.size.height);
-                vk::BufferOf<float> depth(device().device(), "depth", buffers.hits.count());
-                trace(buffers, depth,
-                      [&](vk::FrameGraph& graph)
-                      {
-                          image.beginCopies(graph, layout);
-                          copyDepthToImage(graph, depth, place.size, targetAt(image, format, layout, place));
-                          image.endCopies(graph);
-                      });
-                Words values;
+                Words words;
                 for (const float value : device().download(depth))
                 {
-                    values.push_back(std::bit_cast<gpu::uint>(value));
+                    words.push_back(std::bit_cast<gpu::uint>(value));
                 }
-                EXPECT_GE(std::set<gpu::uint>(values.begin(), values.end()).size(), values.size() / 16);
-                expected.place(image, place, values);
-                EXPECT_TRUE(Contents(image) == expected);
-            }
-        }
+                return words;
+            });
     }
 }
 

@@ -166,15 +166,7 @@ TEST(RadiancePictures, ByConesHaveTheLightOfAllBounces)
     const double expected = 0.5 / (1.0 - test::albedoOf(wall).r);
     for (const std::uint32_t thickness : {1U, 4U})
     {
-        std::vector<LitVoxel> voxels;
-        test::addBox(voxels, glm::uvec3(0), glm::uvec3(32), wall);
-        std::erase_if(voxels,
-                      [&](const LitVoxel& v)
-                      {
-                          return glm::all(glm::greaterThanEqual(v.cell, glm::uvec3(thickness))) &&
-                                 glm::all(glm::lessThan(v.cell, glm::uvec3(32 - thickness)));
-                      });
-        const DeviceTree tree = test::litTree(device(), voxels, 5);
+        const DeviceTree tree = test::litTree(device(), test::roomOf(wall, 32, thickness), 5);
         DeviceEnvironment dark = constantSky(glm::vec3(0.0F));
         const ViewCamera inside = ViewCamera::lookAt({16.2, 16.1, 16.3}, {1.0, 2.0, 3.0}, 1.0);
         FrameRenderer tracer(device().device());

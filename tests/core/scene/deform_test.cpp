@@ -241,6 +241,16 @@ TEST(Deform, WhatIsTinyIsZero)
     EXPECT_EQ(small.positions[0].z, 0x1p-50F);
 }
 
+/// A random pose of an instance of primitive.
+Pose poseOf(std::mt19937& random, const Primitive& primitive, std::size_t joint_count)
+{
+    Scene scene;
+    scene.primitives.push_back(primitive);
+    Pose pose;
+    test::addDeforming(random, scene, pose, 0, joint_count);
+    return pose;
+}
+
 /// Expects that vertices equal those of primitive within the bounds of single precision. Returns the number of normals
 /// that had a bound.
 std::size_t expectNearDoubles(const Primitive& primitive, std::span<const float> weights,
@@ -271,10 +281,7 @@ TEST(Deform, IsWithinRoundingsOfDoublePrecision)
         for (const std::size_t target_count : {std::size_t{0}, std::size_t{1}, std::size_t{12}})
         {
             const Primitive primitive = test::deformingPrimitive(random, 2000, {true, joint_count, target_count});
-            Scene scene;
-            scene.primitives.push_back(primitive);
-            Pose pose;
-            test::addDeforming(random, scene, pose, 0, joint_count);
+            const Pose pose = poseOf(random, primitive, joint_count);
             const DeformedVertices vertices = deformVertices(primitive, pose.morph_weights[0], pose.joint_matrices[0]);
             EXPECT_GT(expectNearDoubles(primitive, pose.morph_weights[0], pose.joint_matrices[0], vertices), 1500U);
         }
@@ -285,10 +292,7 @@ TEST(Deform, WithoutNormalsItTellsWhereJointsMirrorInDoublePrecision)
 {
     std::mt19937 random(4);
     const Primitive primitive = test::deformingPrimitive(random, 4000, {false, 40, 2});
-    Scene scene;
-    scene.primitives.push_back(primitive);
-    Pose pose;
-    test::addDeforming(random, scene, pose, 0, 40);
+    const Pose pose = poseOf(random, primitive, 40);
     const DeformedVertices vertices = deformVertices(primitive, pose.morph_weights[0], pose.joint_matrices[0]);
     ASSERT_EQ(vertices.normals.size(), 4000U);
     int side_count[3] = {};
@@ -310,10 +314,7 @@ TEST(Deform, TheBoundsNoticeAChangedVertex)
 {
     std::mt19937 random(3);
     const Primitive primitive = test::deformingPrimitive(random, 200, {true, 5, 3});
-    Scene scene;
-    scene.primitives.push_back(primitive);
-    Pose pose;
-    test::addDeforming(random, scene, pose, 0, 5);
+    const Pose pose = poseOf(random, primitive, 5);
     std::size_t noticed = 0;
     for (std::size_t i = 0; i < 200; ++i)
     {

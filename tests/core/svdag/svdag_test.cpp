@@ -10,7 +10,9 @@
 #include "support/dags.h"
 #include "support/device.h"
 #include "support/engine_device.h"
+#include "support/errors.h"
 #include "support/octree_access.h"
+#include "support/param_names.h"
 #include "support/scenes.h"
 #include "support/trace_octrees.h"
 #include "zvo/error.h"
@@ -52,13 +54,13 @@ CompressResult compressedAsExpected(DeviceTree octree, const CompressOptions& op
     return result;
 }
 
-/// Compares the same without attributes and with arbitrary ones.
-void expectCompressed(const Codes& codes, std::uint32_t depth)
+/// Compares the same without attributes and with arbitrary ones. Returns the DAG with attributes.
+DeviceTree compressedAsExpected(const Codes& codes, std::uint32_t depth)
 {
     compressedAsExpected(test::octreeOf(device(), codes, depth));
     DeviceTree octree = test::octreeOf(device(), codes, depth);
     test::addAttributes(device(), octree);
-    compressedAsExpected(std::move(octree));
+    return std::move(compressedAsExpected(std::move(octree)).dag);
 }
 
 /// Expects that dag has the voxels of octree, in the same ranks, and all nodes.
@@ -86,7 +88,7 @@ TEST(Svdag, OfRandomVoxelsIsTheOracles)
         for (const std::uint32_t count : {1U, 27U, 2049U})
         {
             SCOPED_TRACE(testing::Message() << count << " voxels at depth " << depth);
-            expectCompressed(test::randomCodes(depth, count, random), depth);
+            compressedAsExpected(test::randomCodes(depth, count, random), depth);
         }
     }
 }
@@ -116,34 +118,22 @@ TEST(Svdag, OfOneVoxelIsAPath)
         const std::uint64_t last = (std::uint64_t{1} << (3 * depth)) - 1;
         for (const std::uint64_t code : {std::uint64_t{0}, last, last & (std::uint64_t{random()} << 20 | random())})
         {
-            expectCompressed({code}, depth);
+            compressedAsExpected({code}, depth);
         }
     }
 }
 
-TEST(Svdag, OfAFullGridHasANodeALevel)
+TEST(Svdag, OfAFullGridOrACheckerboardHasANodeALevel)
 {
     for (std::uint32_t depth = 1; depth <= 7; ++depth)
     {
         SCOPED_TRACE(depth);
-        const Codes codes = test::codesWhere(depth, [](const glm::uvec3&) { return true; });
-        expectCompressed(codes, depth);
-        DeviceTree octree = test::octreeOf(device(), codes, depth);
-        const DeviceTree dag = compress(device(), std::move(octree)).dag;
-        EXPECT_EQ(dag.node_count, dag.grid.nodeLevels());
-    }
-}
-
-TEST(Svdag, OfACheckerboardHasANodeALevel)
-{
-    for (std::uint32_t depth = 2; depth <= 7; ++depth)
-    {
-        SCOPED_TRACE(depth);
-        const Codes codes = test::codesWhere(depth, [](const glm::uvec3& v) { return ((v.x + v.y + v.z) & 1U) != 0; });
-        expectCompressed(codes, depth);
-        DeviceTree octree = test::octreeOf(device(), codes, depth);
-        const DeviceTree dag = compress(device(), std::move(octree)).dag;
-        EXPECT_EQ(dag.node_count, dag.grid.nodeLevels());
+        const DeviceTree full =
+            compressedAsExpected(test::codesWhere(depth, [](const glm::uvec3&) { return true; }), depth);
+        EXPECT_EQ(full.node_count, full.grid.nodeLevels());
+        const DeviceTree checkered = compressedAsExpected(
+            test::codesWhere(depth, [](const glm::uvec3& v) { return ((v.x + v.y + v.z) & 1U) != 0; }), depth);
+        EXPECT_EQ(checkered.node_count, checkered.grid.nodeLevels());
     }
 }
 
@@ -154,10 +144,8 @@ TEST(Svdag, OfNoiseIsTheOctree)
         SCOPED_TRACE(depth);
         std::mt19937 random(depth);
         const Codes codes = test::codesWhere(depth, [&](const glm::uvec3&) { return (random() >> 7 & 1U) != 0; });
-        expectCompressed(codes, depth);
-        DeviceTree octree = test::octreeOf(device(), codes, depth);
-        const std::uint32_t node_count = octree.node_count;
-        EXPECT_EQ(compress(device(), std::move(octree)).dag.node_count, node_count);
+        const DeviceTree dag = compressedAsExpected(codes, depth);
+        EXPECT_EQ(dag.node_count, dag.octreeNodeCount());
     }
 }
 
@@ -226,8 +214,7 @@ TEST(Svdag, OfLeavesThatDifferInOneVoxelKeepsThemApart)
             }
         }
     }
-    expectCompressed(codes, depth);
-    const DeviceTree dag = compress(device(), test::octreeOf(device(), codes, depth)).dag;
+    const DeviceTree dag = compressedAsExpected(codes, depth);
     EXPECT_EQ(dag.levels.back().node_count, 64U);
 }
 
@@ -246,16 +233,15 @@ TEST(Svdag, OfEqualBlocksIsOneOfThem)
             codes.push_back(code);
         }
     }
-    expectCompressed(codes, depth);
-    const DeviceTree dag = compress(device(), test::octreeOf(device(), codes, depth)).dag;
+    const DeviceTree dag = compressedAsExpected(codes, depth);
     EXPECT_EQ(dag.node_count, 1U + 1 + 1 + 64); // the root, a node of blocks, the block, its leaves
 }
 
 TEST(Svdag, OfShapesIsTheOracles)
 {
-    expectCompressed(test::spongeCodes(6), 6);
-    expectCompressed(test::sphereShell(7, 60.0), 7);
-    expectCompressed(test::sphereShell(6, 20.0), 6);
+    compressedAsExpected(test::spongeCodes(6), 6);
+    compressedAsExpected(test::sphereShell(7, 60.0), 7);
+    compressedAsExpected(test::sphereShell(6, 20.0), 6);
 }
 
 TEST(Svdag, TablesOfOneSlotGrowAndGiveTheSameBytes)
@@ -299,15 +285,8 @@ TEST(Svdag, NodesOfWhichMoreCollideThanAreProbedAreGivenUp)
 {
     // For any size of the table, a hash without bits leaves a single slot.
     const Codes codes = test::sphereShell(8, 120.0);
-    try
-    {
-        compress(device(), test::octreeOf(device(), codes, 8), {.hash_mask = 0});
-        FAIL() << "all of them had room";
-    }
-    catch (const Error& error)
-    {
-        EXPECT_EQ(error.code(), ErrorCode::Other) << error.what();
-    }
+    test::messageOf([&] { compress(device(), test::octreeOf(device(), codes, 8), {.hash_mask = 0}); },
+                    ErrorCode::Other);
 }
 
 /// The DAG of octree's nodes without sharing, in which every node has a list of its own children.
@@ -481,14 +460,11 @@ struct SceneCase
     std::uint32_t depth;
 };
 
-class SvdagOfScenes : public testing::TestWithParam<SceneCase>
-{
-};
+using SvdagOfScenes = testing::TestWithParam<SceneCase>;
 
 std::string sceneCaseName(const testing::TestParamInfo<SceneCase>& info)
 {
-    const std::string scene = info.param.scene;
-    return scene.substr(0, scene.find('.')) + "_" + std::to_string(1U << info.param.depth);
+    return test::nameOf(std::string(info.param.scene)) + "_" + std::to_string(1U << info.param.depth);
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenes, SvdagOfScenes,

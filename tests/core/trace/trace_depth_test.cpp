@@ -174,9 +174,7 @@ Entry entryOf(const Grid& grid, const gpu::Hit& hit, const Ray& ray)
     return {axis, distance, ray.origin + distance * ray.direction};
 }
 
-class TraceDepthProjections : public testing::TestWithParam<Projection>
-{
-};
+using TraceDepthProjections = testing::TestWithParam<Projection>;
 
 std::string nameOf(const testing::TestParamInfo<Projection>& info)
 {
@@ -271,34 +269,24 @@ enum class Winner
     Voxels
 };
 
-// Boxes, and a disc of a plane, in world space.
+// A box, and a disc of a plane, in world space.
 struct Geometry
 {
-    struct Box
-    {
-        glm::dvec3 min;
-        glm::dvec3 max;
-    };
-    std::vector<Box> boxes;
+    glm::dvec3 min; // of the box
+    glm::dvec3 max;
     glm::dvec3 normal; // of the plane
     glm::dvec3 middle;
     double radius;
 
-    // The distance at which a ray enters the first box; infinite if it misses. grown: added to the boxes in all
-    // directions.
+    // The distance at which a ray enters the box; infinite if it misses. grown: added to the box in all directions.
     [[nodiscard]] double boxDistance(const Ray& ray, double grown = 0.0) const
     {
-        double nearest = INFINITY;
-        for (const Box& box : boxes)
-        {
-            const glm::dvec3 a = (box.min - grown - ray.origin) / ray.direction;
-            const glm::dvec3 b = (box.max + grown - ray.origin) / ray.direction;
-            const glm::dvec3 low = glm::min(a, b);
-            const glm::dvec3 high = glm::max(a, b);
-            const double enters = std::max({low.x, low.y, low.z, 0.0});
-            nearest = enters < std::min({high.x, high.y, high.z}) ? std::min(nearest, enters) : nearest;
-        }
-        return nearest;
+        const glm::dvec3 a = (min - grown - ray.origin) / ray.direction;
+        const glm::dvec3 b = (max + grown - ray.origin) / ray.direction;
+        const glm::dvec3 low = glm::min(a, b);
+        const glm::dvec3 high = glm::max(a, b);
+        const double enters = std::max({low.x, low.y, low.z, 0.0});
+        return enters < std::min({high.x, high.y, high.z}) ? enters : INFINITY;
     }
 
     // The distance at which a ray meets the disc, which is shifted along its normal.
@@ -367,27 +355,6 @@ void expectComposited(const DeviceTree& octree, const Geometry& geometry, const 
     EXPECT_LT(open_count, 1 + edge_count / 10);
 }
 
-// The boxes of voxels.
-std::vector<Geometry::Box> boxesWhere(std::uint32_t depth, const std::function<bool(const glm::ivec3&)>& inside)
-{
-    std::vector<Geometry::Box> boxes;
-    const int resolution = 1 << depth;
-    for (int z = 0; z < resolution; ++z)
-    {
-        for (int y = 0; y < resolution; ++y)
-        {
-            for (int x = 0; x < resolution; ++x)
-            {
-                if (inside({x, y, z}))
-                {
-                    boxes.push_back({glm::dvec3(x, y, z), glm::dvec3(x + 1, y + 1, z + 1)});
-                }
-            }
-        }
-    }
-    return boxes;
-}
-
 TEST_P(TraceDepthProjections, ABoxIsCompositedWithAPlaneAsExactGeometrySays)
 {
     constexpr std::uint32_t kDepth = 6;
@@ -401,30 +368,7 @@ TEST_P(TraceDepthProjections, ABoxIsCompositedWithAPlaneAsExactGeometrySays)
                                                               }),
                                              kDepth);
     const Geometry geometry = {
-        {{glm::dvec3(low), glm::dvec3(high)}}, glm::normalize(glm::dvec3(0.2, 1.0, 0.3)), {31.3, 28.1, 30.7}, 22.0};
-    expectComposited(octree, geometry, GetParam());
-}
-
-TEST_P(TraceDepthProjections, ASphereIsCompositedWithAPlaneAsItsVoxelsSay)
-{
-    constexpr std::uint32_t kDepth = 4; // few voxels, since each pixel tests all of them
-    const auto inside = [](const glm::ivec3& voxel)
-    {
-        const double distance = glm::length(glm::dvec3(voxel) + 0.5 - glm::dvec3(8.0));
-        return std::abs(distance - 6.5) <= 0.9;
-    };
-    DeviceTree octree = test::octreeOf(
-        device(), test::codesWhere(kDepth, [&](const glm::uvec3& voxel) { return inside(glm::ivec3(voxel)); }), kDepth);
-    // As large as the box.
-    octree.grid.origin = glm::vec3(6.0F, 4.0F, 5.0F);
-    octree.grid.voxel_size = 3.0F;
-    Geometry geometry = {
-        boxesWhere(kDepth, inside), glm::normalize(glm::dvec3(-0.3, 0.8, 0.4)), {31.3, 28.1, 30.7}, 22.0};
-    for (Geometry::Box& box : geometry.boxes)
-    {
-        box.min = glm::dvec3(octree.grid.origin) + 3.0 * box.min;
-        box.max = glm::dvec3(octree.grid.origin) + 3.0 * box.max;
-    }
+        glm::dvec3(low), glm::dvec3(high), glm::normalize(glm::dvec3(0.2, 1.0, 0.3)), {31.3, 28.1, 30.7}, 22.0};
     expectComposited(octree, geometry, GetParam());
 }
 

@@ -1,15 +1,11 @@
 // SPDX-License-Identifier: MIT
 // Options that change how pictures are made do not change what they show.
-#include "core/base/kernels.h"
 #include "core/base/morton.h"
 #include "core/trace/trace.h"
 #include "oracle/trace.h"
 #include "support/engine_device.h"
 #include "support/pictures.h"
-#include "support/spirv_structs.h"
 #include "support/trace_octrees.h"
-#include "trace/beam.h"
-#include "trace/node_paths.h"
 
 #include <gtest/gtest.h>
 
@@ -379,73 +375,6 @@ TEST(TracePicture, DetailShowsCoarserNodesFartherAway)
     { return picture.hits.at(static_cast<std::size_t>(y * 64 + 32)).where.y >> 22 & 15U; };
     EXPECT_EQ(level(60), 4U);
     EXPECT_LT(level(28), 4U);
-}
-
-#define ZVO_EXPECT_OFFSET(type, member) EXPECT_EQ(offsets.at(#member), offsetof(gpu::type, member)) << kernel.name
-
-TEST(TracePicture, ParametersLieWhereTheKernelsExpectThem)
-{
-    std::uint32_t checked = 0;
-    for (const vk::EmbeddedKernel& kernel : zvoKernels())
-    {
-        if (!kernel.name.starts_with("trace/"))
-        {
-            continue;
-        }
-        for (const auto& [name, offsets] : test::structOffsets(kernel.words))
-        {
-            if (name == "ShadeParams")
-            {
-                ZVO_EXPECT_OFFSET(ShadeParams, image);
-                ZVO_EXPECT_OFFSET(ShadeParams, half_pixel_y);
-                ZVO_EXPECT_OFFSET(ShadeParams, sun);
-                ZVO_EXPECT_OFFSET(ShadeParams, exposure);
-                ++checked;
-            }
-            else if (name == "PrimaryParams")
-            {
-                ZVO_EXPECT_OFFSET(PrimaryParams, iterations);
-                ZVO_EXPECT_OFFSET(PrimaryParams, camera);
-                ZVO_EXPECT_OFFSET(PrimaryParams, detail);
-                ZVO_EXPECT_OFFSET(PrimaryParams, next_round);
-                ++checked;
-            }
-            else if (name == "NodePathsParams")
-            {
-                ZVO_EXPECT_OFFSET(NodePathsParams, paths);
-                ++checked;
-            }
-            else if (name == "BeamParams")
-            {
-                ZVO_EXPECT_OFFSET(BeamParams, camera);
-                ZVO_EXPECT_OFFSET(BeamParams, block_stride);
-                ZVO_EXPECT_OFFSET(BeamParams, detail);
-                ++checked;
-            }
-            else if (name == "ShadowParams")
-            {
-                ZVO_EXPECT_OFFSET(ShadowParams, light);
-                ZVO_EXPECT_OFFSET(ShadowParams, to_sun);
-                ZVO_EXPECT_OFFSET(ShadowParams, next_round);
-                ++checked;
-            }
-            else if (name == "RaysParams")
-            {
-                ZVO_EXPECT_OFFSET(RaysParams, detail);
-                ZVO_EXPECT_OFFSET(RaysParams, ray_count);
-                ZVO_EXPECT_OFFSET(RaysParams, next_round);
-                ++checked;
-            }
-            else if (name == "Ray")
-            {
-                ZVO_EXPECT_OFFSET(Ray, t_min);
-                ZVO_EXPECT_OFFSET(Ray, inverse_direction);
-                ZVO_EXPECT_OFFSET(Ray, t_max);
-                ++checked;
-            }
-        }
-    }
-    EXPECT_GE(checked, 7U);
 }
 
 } // namespace

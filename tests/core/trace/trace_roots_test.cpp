@@ -7,6 +7,7 @@
 #include "support/relocate.h"
 #include "support/trace_octrees.h"
 #include "support/trace_rays.h"
+#include "support/tree_comparison.h"
 #include "trace/node_paths.h"
 
 #include <gtest/gtest.h>
@@ -22,181 +23,92 @@ namespace zvo
 namespace
 {
 
+using test::device;
 using test::hitCount;
 using test::Picture;
-using test::Relocated;
 using test::takePicture;
+using test::TreeComparison;
 
 constexpr std::uint32_t kFar = 100000; // nodes; does not fit 16 bits
 constexpr std::array kRootViews = {View::Color, View::Albedo,     View::Normal, View::Depth,
                                    View::Level, View::Iterations, View::Voxel,  View::Bricks};
 
-using test::device;
-
-DeviceTree withAttributes(const test::Codes& codes, std::uint32_t depth)
+DeviceTree withAttributes(const test::CodeSet& set)
 {
-    DeviceTree octree = test::octreeOf(device(), codes, depth);
+    DeviceTree octree = test::octreeOf(device(), set.codes, set.depth);
     test::addAttributes(device(), octree);
     return octree;
 }
 
-// nodes: hits are nodes at which a level of detail stopped, or voxels.
-void expectSameHit(const gpu::Hit& expected, const gpu::Hit& hit, const Relocated& relocated)
+// 20,000 random voxels, with four levels of nodes.
+DeviceTree randomOctree(std::uint32_t seed)
 {
-    ASSERT_EQ(hit.index == gpu::kHitMiss, expected.index == gpu::kHitMiss);
-    if (hit.index == gpu::kHitMiss)
-    {
-        return;
-    }
-    ASSERT_EQ(std::bit_cast<std::uint32_t>(hit.t), std::bit_cast<std::uint32_t>(expected.t));
-    ASSERT_EQ(hit.where, expected.where);
-    const bool is_voxel = test::unpack(hit)->level == relocated.octree.grid.nodeLevels();
-    ASSERT_EQ((is_voxel ? relocated.original_voxels : relocated.original_nodes).at(hit.index), expected.index);
+    std::mt19937 random(seed);
+    return withAttributes({8, test::randomCodes(8, 20000, random)});
 }
 
-void expectSamePicture(const Picture& expected, const Picture& picture, const Relocated& relocated)
+ViewCamera frontOf(const DeviceTree& octree)
 {
-    EXPECT_EQ(picture.image, expected.image);
-    EXPECT_EQ(picture.light, expected.light);
-    EXPECT_EQ(picture.live_tiles, expected.live_tiles);
-    EXPECT_EQ(picture.capped_rays, 0U);
-    for (std::size_t i = 0; i < expected.hits.size(); ++i)
-    {
-        ASSERT_NO_FATAL_FAILURE(expectSameHit(expected.hits[i], picture.hits[i], relocated)) << "pixel " << i;
-    }
-}
-
-std::vector<std::pair<std::uint32_t, test::Codes>> codeSets()
-{
-    std::mt19937 random(11);
-    return {
-        {1, {0, 5}},
-        {2, test::randomCodes(2, 20, random)},
-        {4, test::randomCodes(4, 200, random)},
-        {6, test::sphereShell(6, 24.0)},
-        {7, test::randomCodes(7, 3000, random)},
-        {8, test::sphereShell(8, 110.0)},
-        {11, test::randomCodes(11, 20000, random)},
-    };
+    return test::manyCameras(octree.grid).front();
 }
 
 // Layouts of updates: only the root changed, everything changed, and both numberings of level 2.
-std::vector<test::RelocateOptions> updates()
+std::vector<DeviceTree> relocations(const DeviceTree& octree)
 {
-    return {
-        {.gap = 0, .touched_percent = 50},
-        {.gap = kFar, .touched_percent = 0},
-        {.gap = kFar, .touched_percent = 60},
-        {.gap = kFar, .touched_percent = 100},
-    };
-}
-
-std::vector<Relocated> relocations(const DeviceTree& octree)
-{
-    std::vector<Relocated> result;
-    for (const test::RelocateOptions& update : updates())
+    std::vector<DeviceTree> result;
+    for (const test::RelocateOptions& update : {test::RelocateOptions{.gap = 0, .touched_percent = 50},
+                                                {.gap = kFar, .touched_percent = 0},
+                                                {.gap = kFar, .touched_percent = 60},
+                                                {.gap = kFar, .touched_percent = 100}})
     {
         result.push_back(test::relocate(device(), octree, update));
     }
     return result;
 }
 
-std::string traceOf(const DeviceTree& octree, std::size_t update, std::size_t number)
+// Calls compare(comparison) for an octree and each of its relocations.
+template <typename Compare> void compareRelocations(const DeviceTree& octree, const Compare& compare)
 {
-    return "depth " + std::to_string(octree.grid.depth) + " update " + std::to_string(update) + " number " +
-           std::to_string(number);
-}
-
-// Compares pictures of octree and of its relocations.
-void expectSamePictures(const DeviceTree& octree, const std::vector<Relocated>& relocated, const ViewCamera& view,
-                        std::uint32_t width, std::uint32_t height, const TraceOptions& options, std::size_t number)
-{
-    const TraceCamera camera = traceCamera(view, octree.grid, height);
-    const Picture expected = takePicture(device(), octree, camera, width, height, options);
-    for (std::size_t i = 0; i < relocated.size(); ++i)
+    std::size_t update = 0;
+    for (const DeviceTree& relocated : relocations(octree))
     {
-        SCOPED_TRACE(traceOf(octree, i, number));
-        expectSamePicture(expected, takePicture(device(), relocated[i].octree, camera, width, height, options),
-                          relocated[i]);
-    }
-    if (number == 0)
-    {
-        EXPECT_GT(hitCount(expected), 0U);
+        SCOPED_TRACE("depth " + std::to_string(octree.grid.depth) + " update " + std::to_string(update++));
+        TreeComparison comparison(device(), octree, relocated);
+        compare(comparison);
     }
 }
 
 TEST(TraceRoots, EveryViewOfARelocatedOctreeIsTheSame)
 {
-    for (const auto& [depth, codes] : codeSets())
+    for (const test::CodeSet& set : test::codeSets())
     {
-        const DeviceTree octree = withAttributes(codes, depth);
-        const std::vector<Relocated> relocated = relocations(octree);
-        const ViewCamera view = test::manyCameras(octree.grid).front();
-        for (const View shown : kRootViews)
-        {
-            TraceOptions options;
-            options.view = shown;
-            options.occlusion_rays = 2;
-            expectSamePictures(octree, relocated, view, 99, 70, options, 0);
-        }
+        const DeviceTree octree = withAttributes(set);
+        compareRelocations(octree, [&](TreeComparison& comparison) { comparison.views(frontOf(octree), true); });
     }
 }
 
 TEST(TraceRoots, EveryCameraSeesTheSameWithAndWithoutBeam)
 {
-    for (const auto& [depth, codes] : codeSets())
+    TraceOptions options;
+    options.view = View::Iterations;
+    for (const test::CodeSet& set : test::codeSets())
     {
-        const DeviceTree octree = withAttributes(codes, depth);
-        const std::vector<Relocated> relocated = relocations(octree);
-        const std::vector<ViewCamera> views = test::manyCameras(octree.grid);
-        for (std::size_t i = 0; i < views.size(); ++i)
-        {
-            TraceOptions options;
-            options.view = View::Iterations;
-            options.beam = i % 2 == 0;
-            expectSamePictures(octree, relocated, views[i], 53, 41, options, i);
-        }
+        compareRelocations(withAttributes(set), [&](TreeComparison& comparison) { comparison.cameras(1, options); });
     }
 }
 
 TEST(TraceRoots, RaysHitTheSame)
 {
-    std::mt19937 random(12);
-    for (const auto& [depth, codes] : codeSets())
+    for (const test::CodeSet& set : test::codeSets())
     {
-        const DeviceTree octree = test::octreeOf(device(), codes, depth);
-        const std::vector<Relocated> relocated = relocations(octree);
-        std::vector<gpu::Ray> rays;
-        for (int i = 0; i < 2049; ++i)
-        {
-            rays.push_back(test::deviceRay(test::pickRay(random, octree.grid.rootResolution(), codes)));
-        }
-        const std::vector<gpu::Hit> expected = test::traceOnDevice(device(), octree, rays);
-        for (std::size_t i = 0; i < relocated.size(); ++i)
-        {
-            const std::vector<gpu::Hit> hits = test::traceOnDevice(device(), relocated[i].octree, rays);
-            for (std::size_t ray = 0; ray < rays.size(); ++ray)
-            {
-                ASSERT_NO_FATAL_FAILURE(expectSameHit(expected[ray], hits[ray], relocated[i]))
-                    << traceOf(octree, i, ray);
-            }
-        }
+        compareRelocations(withAttributes(set), [&](TreeComparison& comparison) { comparison.rays(set.codes); });
     }
 }
 
 TEST(TraceRoots, LevelsOfDetailStopAtTheSameNodes)
 {
-    std::mt19937 random(13);
-    const DeviceTree octree = withAttributes(test::randomCodes(8, 20000, random), 8);
-    const std::vector<Relocated> relocated = relocations(octree);
-    const ViewCamera view = test::manyCameras(octree.grid).front();
-    for (const std::uint32_t level : {1U, 2U, 3U, UINT32_MAX})
-    {
-        TraceOptions options;
-        options.detail_level = level;
-        options.detail_pixels = level == UINT32_MAX ? 6.0F : 0.0F;
-        expectSamePictures(octree, relocated, view, 99, 70, options, 0);
-    }
+    const DeviceTree octree = randomOctree(13);
+    compareRelocations(octree, [&](TreeComparison& comparison) { comparison.detail(frontOf(octree), true); });
 }
 
 /// The entry of paths.cells for a cell.
@@ -260,21 +172,19 @@ TEST(TraceRoots, RaysBeginAtTheLowestNodesOfEveryUpdate)
         const DeviceTree octree = test::octreeOf(device(), test::randomCodes(depth, 20000, random), depth);
         const std::vector<gpu::Node> nodes = device().download(octree.nodes);
         EXPECT_EQ(devicePathsOf(octree, nodes), pathsOf(nodes));
-        for (const Relocated& relocated : relocations(octree))
+        for (const DeviceTree& relocated : relocations(octree))
         {
-            const std::vector<gpu::Node> moved = device().download(relocated.octree.nodes);
-            EXPECT_EQ(devicePathsOf(relocated.octree, moved), pathsOf(moved));
+            const std::vector<gpu::Node> moved = device().download(relocated.nodes);
+            EXPECT_EQ(devicePathsOf(relocated, moved), pathsOf(moved));
         }
     }
 }
 
 TEST(TraceRoots, RaysBeginAboveNodesThatPathsCannotName)
 {
-    std::mt19937 random(15);
-    const DeviceTree octree = withAttributes(test::randomCodes(8, 20000, random), 8);
-    const Relocated relocated =
-        test::relocate(device(), octree, {.gap = kFar, .level_gap = kFar, .touched_percent = 50});
-    const std::vector<gpu::Node> nodes = device().download(relocated.octree.nodes);
+    const DeviceTree octree = randomOctree(15);
+    const DeviceTree relocated = test::relocate(device(), octree, {.gap = kFar, .level_gap = kFar});
+    const std::vector<gpu::Node> nodes = device().download(relocated.nodes);
     std::vector<Path> expected = pathsOf(nodes);
     std::uint32_t cut_count = 0;
     for (Path& path : expected)
@@ -287,69 +197,55 @@ TEST(TraceRoots, RaysBeginAboveNodesThatPathsCannotName)
     }
     EXPECT_GT(cut_count, 1000U);
     EXPECT_LT(cut_count, expected.size() - 1000);
-    EXPECT_EQ(devicePathsOf(relocated.octree, nodes), expected);
-    for (const ViewCamera& view : test::manyCameras(octree.grid))
-    {
-        const TraceCamera camera = traceCamera(view, octree.grid, 41);
-        expectSamePicture(takePicture(device(), octree, camera, 53, 41, {}),
-                          takePicture(device(), relocated.octree, camera, 53, 41, {}), relocated);
-    }
+    EXPECT_EQ(devicePathsOf(relocated, nodes), expected);
+    TreeComparison(device(), octree, relocated).cameras(1);
 }
 
 TEST(TraceRoots, LevelsOfTheOctreeThatWasChangedMayStay)
 {
-    std::mt19937 random(18);
-    const DeviceTree octree = withAttributes(test::randomCodes(8, 20000, random), 8);
-    std::vector<Relocated> relocated = relocations(octree);
-    for (Relocated& each : relocated)
+    const DeviceTree octree = randomOctree(18);
+    for (DeviceTree& relocated : relocations(octree))
     {
-        each.octree.levels = octree.levels;
-        each.octree.node_count = octree.node_count;
+        relocated.levels = octree.levels;
+        relocated.node_count = octree.node_count;
+        EXPECT_GT(TreeComparison(device(), octree, relocated).picture(frontOf(octree)), 0U);
     }
-    expectSamePictures(octree, relocated, test::manyCameras(octree.grid).front(), 99, 70, {}, 0);
 }
 
 TEST(TraceRoots, HalvesOfARootMayStandApart)
 {
     // The format allows the children of a node's two halves to be apart.
-    std::mt19937 random(16);
-    const DeviceTree octree = withAttributes(test::randomCodes(8, 20000, random), 8);
-    Relocated relocated = test::relocate(device(), octree, {.touched_percent = 0});
-    std::vector<gpu::Node> nodes = device().download(relocated.octree.nodes);
+    const DeviceTree octree = randomOctree(16);
+    DeviceTree relocated = test::relocate(device(), octree, {.touched_percent = 0});
+    std::vector<gpu::Node> nodes = device().download(relocated.nodes);
     const auto upper_count = static_cast<std::uint32_t>(std::popcount(nodes[0].mask_hi));
     ASSERT_GT(upper_count, 16U);
     const auto moved = static_cast<std::uint32_t>(nodes.size()) + kFar;
     nodes.resize(moved + upper_count);
-    relocated.original_nodes.resize(nodes.size(), Relocated::kUnused);
     for (std::uint32_t i = 0; i < upper_count; ++i)
     {
         nodes[moved + i] = std::exchange(nodes[nodes[0].base_hi + i], gpu::Node{~0U, 0, ~0U, 0});
     }
     nodes[0].base_hi = moved;
-    relocated.octree.nodes = device().makeBuffer("nodes", std::span<const gpu::Node>(nodes));
-    relocated.octree.node_count = static_cast<std::uint32_t>(nodes.size());
-    for (const ViewCamera& view : test::manyCameras(octree.grid))
-    {
-        const TraceCamera camera = traceCamera(view, octree.grid, 41);
-        expectSamePicture(takePicture(device(), octree, camera, 53, 41, {}),
-                          takePicture(device(), relocated.octree, camera, 53, 41, {}), relocated);
-    }
+    relocated.nodes = device().makeBuffer("nodes", std::span<const gpu::Node>(nodes));
+    relocated.node_count = static_cast<std::uint32_t>(nodes.size());
+    TreeComparison(device(), octree, relocated).cameras(1);
 }
 
 TEST(TraceRoots, ARootThatWasEmptyInBetweenIsTheSame)
 {
-    for (const auto& [depth, codes] : codeSets())
+    for (const test::CodeSet& set : test::codeSets())
     {
-        SCOPED_TRACE(depth);
-        DeviceTree octree = withAttributes(codes, depth);
-        const DeviceTree nothing = test::octreeOf(device(), {}, depth);
+        SCOPED_TRACE(set.depth);
+        DeviceTree octree = withAttributes(set);
+        const DeviceTree nothing = test::octreeOf(device(), {}, set.depth);
         const gpu::Node root = device().download(octree.nodes, 0, 1).at(0);
         // The bases of an empty root have no meaning.
         const gpu::Node empty = {.mask_lo = 0, .base_lo = 12345, .mask_hi = 0, .base_hi = ~0U};
         NodePaths paths(device().device());
         TraceBuffers buffers(device().device(), 99, 70);
         // The camera is so close that tiles are narrower than voxels.
-        const glm::dvec3 voxel = glm::dvec3(oracle::mortonDecode(codes.front())) + 0.5;
+        const glm::dvec3 voxel = glm::dvec3(oracle::mortonDecode(set.codes.front())) + 0.5;
         const glm::dvec3 eye = voxel + static_cast<double>(octree.grid.resolution()) * glm::dvec3(-0.4, -0.7, -2.5);
         const TraceCamera camera = traceCamera(ViewCamera::lookAt(eye, voxel, 0.008), octree.grid, 70);
         const auto take = [&](const gpu::Node& with, const TraceOptions& options)
@@ -392,11 +288,7 @@ TEST(TraceRoots, AnOctreeOfAnEmptyRootIsNeverHit)
         octree.nodes = device().makeBuffer("nodes", std::span(&empty, 1));
         octree.node_count = 1;
         const test::Codes codes = test::randomCodes(depth, 20, random); // where rays aim
-        std::vector<gpu::Ray> rays;
-        for (int i = 0; i < 500; ++i)
-        {
-            rays.push_back(test::deviceRay(test::pickRay(random, octree.grid.rootResolution(), codes)));
-        }
+        const std::vector<gpu::Ray> rays = test::pickRays(random, octree.grid.rootResolution(), codes, 500);
         for (const gpu::Hit& hit : test::traceOnDevice(device(), octree, rays))
         {
             ASSERT_EQ(hit.index, gpu::kHitMiss) << depth;

@@ -18,9 +18,7 @@ constexpr std::uint32_t kRayCount = 100000;
 
 using test::device;
 
-class TraceScenes : public testing::TestWithParam<std::string>
-{
-};
+using TraceScenes = testing::TestWithParam<std::string>;
 
 INSTANTIATE_TEST_SUITE_P(Scenes, TraceScenes,
                          testing::Values("bunny.glb", "dragon.glb", "buddha_113k.glb", "atrium.glb"),

@@ -74,9 +74,7 @@ void expectColorsEqualTheOracle(const Scene& scene, std::uint32_t depth, Coverag
     EXPECT_EQ(differences, 0U) << "of " << expected.size() << " voxels";
 }
 
-class SceneColors : public testing::TestWithParam<std::string>
-{
-};
+using SceneColors = testing::TestWithParam<std::string>;
 
 INSTANTIATE_TEST_SUITE_P(Scenes, SceneColors,
                          testing::Values("sponza.glb", "damaged_helmet.glb", "milk_truck.glb",

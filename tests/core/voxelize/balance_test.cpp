@@ -41,9 +41,7 @@ std::uint64_t countBlocks(const std::vector<glm::vec3>& corners, std::uint32_t d
     return counters.block_count;
 }
 
-class BalanceBothCoverages : public testing::TestWithParam<Coverage>
-{
-};
+using BalanceBothCoverages = testing::TestWithParam<Coverage>;
 
 INSTANTIATE_TEST_SUITE_P(Coverages, BalanceBothCoverages, testing::Values(Coverage::Conservative, Coverage::Thin),
                          test::paramName<Coverage>);

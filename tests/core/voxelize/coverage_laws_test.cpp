@@ -115,9 +115,7 @@ LatticeTriangles moved(const LatticeTriangles& triangles, const std::function<gl
     return result;
 }
 
-class CoverageLaws : public testing::TestWithParam<Coverage>
-{
-};
+using CoverageLaws = testing::TestWithParam<Coverage>;
 
 INSTANTIATE_TEST_SUITE_P(Coverages, CoverageLaws, testing::Values(Coverage::Conservative, Coverage::Thin),
                          test::paramName<Coverage>);
@@ -168,21 +166,27 @@ TEST_P(CoverageLaws, TranslationByWholeVoxelsShiftsTheSet)
     }
 }
 
+// Expects that the set of each image of a sample's triangles is the image of the set that expected(symmetry) gives.
+template <typename Expected> void expectSymmetric(const Sample& sample, Coverage coverage, const Expected& expected)
+{
+    const int resolution = 1 << sample.depth;
+    for (const Symmetry& symmetry : test::symmetries())
+    {
+        const VoxelSet image =
+            voxelsOf(moved(sample.triangles, [&](const glm::ivec3& p) { return symmetry(p, resolution * 256); }),
+                     sample.depth, coverage);
+        ASSERT_EQ(image, test::mapped(expected(symmetry), sample.depth,
+                                      [&](const glm::ivec3& v) { return symmetry(v, resolution - 1); }));
+    }
+}
+
 TEST(CoverageLaw, ConservativeSetHasThe48SymmetriesOfItsTriangles)
 {
     for (const Sample& sample : samples(400))
     {
         SCOPED_TRACE(sample.name);
-        const int resolution = 1 << sample.depth;
         const VoxelSet original = voxelsOf(sample.triangles, sample.depth, Coverage::Conservative);
-        for (const Symmetry& symmetry : test::symmetries())
-        {
-            const VoxelSet image =
-                voxelsOf(moved(sample.triangles, [&](const glm::ivec3& p) { return symmetry(p, resolution * 256); }),
-                         sample.depth, Coverage::Conservative);
-            ASSERT_EQ(image, test::mapped(original, sample.depth,
-                                          [&](const glm::ivec3& v) { return symmetry(v, resolution - 1); }));
-        }
+        expectSymmetric(sample, Coverage::Conservative, [&](const Symmetry&) { return original; });
     }
 }
 
@@ -254,19 +258,10 @@ TEST(CoverageLaw, ThinSetHasThe48SymmetriesOfItsTrianglesWhereNoConventionDecide
     for (Sample& sample : samples(400))
     {
         SCOPED_TRACE(sample.name);
-        const int resolution = 1 << sample.depth;
-        std::erase_if(sample.triangles,
-                      [&](const LatticeTriangle& t) { return !isGeneric(t, static_cast<std::uint32_t>(resolution)); });
+        std::erase_if(sample.triangles, [&](const LatticeTriangle& t) { return !isGeneric(t, 1U << sample.depth); });
         generic_count += sample.triangles.size();
         const VoxelSet original = voxelsOf(sample.triangles, sample.depth, Coverage::Thin);
-        for (const Symmetry& symmetry : test::symmetries())
-        {
-            const VoxelSet image =
-                voxelsOf(moved(sample.triangles, [&](const glm::ivec3& p) { return symmetry(p, resolution * 256); }),
-                         sample.depth, Coverage::Thin);
-            ASSERT_EQ(image, test::mapped(original, sample.depth,
-                                          [&](const glm::ivec3& v) { return symmetry(v, resolution - 1); }));
-        }
+        expectSymmetric(sample, Coverage::Thin, [&](const Symmetry&) { return original; });
     }
     EXPECT_GT(generic_count, 2000U);
 }
@@ -278,18 +273,14 @@ TEST(CoverageLaw, ThinSetOfAnImageIsTheImageUnderTheMirroredRule)
     {
         SCOPED_TRACE(sample.name);
         sample.triangles.resize(std::min<std::size_t>(sample.triangles.size(), 600)); // the oracle is slow
-        const int resolution = 1 << sample.depth;
         const VoxelSet original = oracleThin(sample.triangles, sample.depth, {});
-        for (const Symmetry& symmetry : test::symmetries())
-        {
-            const VoxelSet image =
-                voxelsOf(moved(sample.triangles, [&](const glm::ivec3& p) { return symmetry(p, resolution * 256); }),
-                         sample.depth, Coverage::Thin);
-            const VoxelSet expected = oracleThin(sample.triangles, sample.depth, ruleUnder(symmetry));
-            changed_count += expected != original ? 1 : 0;
-            ASSERT_EQ(image, test::mapped(expected, sample.depth,
-                                          [&](const glm::ivec3& v) { return symmetry(v, resolution - 1); }));
-        }
+        expectSymmetric(sample, Coverage::Thin,
+                        [&](const Symmetry& symmetry)
+                        {
+                            VoxelSet expected = oracleThin(sample.triangles, sample.depth, ruleUnder(symmetry));
+                            changed_count += expected != original ? 1 : 0;
+                            return expected;
+                        });
     }
     EXPECT_GT(changed_count, 100U) << "the samples have few borders and ties";
 }

@@ -358,9 +358,7 @@ TEST(Separation, OfSliversAndNeedles)
     expectSeparatesInManyPlaces(solid, 7, 8);
 }
 
-class SeparationOfModels : public testing::TestWithParam<std::string>
-{
-};
+using SeparationOfModels = testing::TestWithParam<std::string>;
 
 INSTANTIATE_TEST_SUITE_P(Models, SeparationOfModels, testing::Values("asian_dragon_28k.glb", "buddha_113k.glb"),
                          test::paramName<std::string>);

@@ -6,6 +6,7 @@
 #include "support/engine_device.h"
 #include "support/materials_scene.h"
 #include "support/param_names.h"
+#include "support/same_bytes.h"
 #include "support/scenes.h"
 
 #include <gtest/gtest.h>
@@ -24,6 +25,7 @@ namespace
 {
 
 using test::device;
+using test::sameBytes;
 
 // Those that the device can do; the first one is what all others are compared with.
 std::vector<SumForm> formsOf(const vk::Device& device)
@@ -55,11 +57,6 @@ Left build(vk::HeadlessDevice& device, const Scene& scene, const Grid& grid, Cov
     const DeviceTree octree = buildOctree(device, uploaded, grid, options).octree;
     return {octreeSha256(device, octree), device.download(octree.sums.sums), device.download(octree.sums.emission_sums),
             octree.sums.sum_shift};
-}
-
-template <typename T> bool sameBytes(const std::vector<T>& a, const std::vector<T>& b)
-{
-    return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0;
 }
 
 // Returns the sums.
@@ -99,9 +96,7 @@ Scene scatteredTriangles(std::size_t count, float size, float extent)
     return test::triangleSoup(corners);
 }
 
-class SumFormsBothCoverages : public testing::TestWithParam<Coverage>
-{
-};
+using SumFormsBothCoverages = testing::TestWithParam<Coverage>;
 
 INSTANTIATE_TEST_SUITE_P(Coverages, SumFormsBothCoverages, testing::Values(Coverage::Conservative, Coverage::Thin),
                          test::paramName<Coverage>);

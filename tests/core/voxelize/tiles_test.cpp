@@ -4,6 +4,8 @@
 #include "support/engine_device.h"
 #include "support/materials_scene.h"
 #include "support/morton_index.h"
+#include "support/param_names.h"
+#include "support/same_bytes.h"
 #include "support/scenes.h"
 #include "zvo/error.h"
 
@@ -43,11 +45,6 @@ template <typename T> void append(std::vector<T>& all, const std::vector<T>& mor
     all.insert(all.end(), more.begin(), more.end());
 }
 
-template <typename T> bool isSame(const std::vector<T>& a, const std::vector<T>& b)
-{
-    return a.size() == b.size() && (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0);
-}
-
 void expectTilesMakeTheWhole(const Scene& scene, const Grid& grid, std::uint32_t tile_depth, Coverage coverage)
 {
     const GpuScene uploaded = uploadScene(device(), scene, true);
@@ -74,16 +71,14 @@ void expectTilesMakeTheWhole(const Scene& scene, const Grid& grid, std::uint32_t
     }
     EXPECT_GT(occupied, 1U);
     EXPECT_EQ(tiles.codes, expected.codes);
-    EXPECT_TRUE(isSame(tiles.attributes, expected.attributes));
-    EXPECT_TRUE(isSame(tiles.emission, expected.emission));
+    EXPECT_TRUE(test::sameBytes(tiles.attributes, expected.attributes));
+    EXPECT_TRUE(test::sameBytes(tiles.emission, expected.emission));
 }
 
-class Tiles : public testing::TestWithParam<Coverage>
-{
-};
+using Tiles = testing::TestWithParam<Coverage>;
 
 INSTANTIATE_TEST_SUITE_P(Coverages, Tiles, testing::Values(Coverage::Conservative, Coverage::Thin),
-                         [](const auto& c) { return c.param == Coverage::Thin ? "Thin" : "Conservative"; });
+                         test::paramName<Coverage>);
 
 TEST_P(Tiles, OfEveryMaterialMakeTheWhole)
 {

@@ -26,9 +26,7 @@ void expectEqualsOracle(const Scene& scene, const Grid& grid, Coverage coverage)
     test::expectEqualsOracle(device(), scene, grid, coverage);
 }
 
-class VoxelizeBothCoverages : public testing::TestWithParam<Coverage>
-{
-};
+using VoxelizeBothCoverages = testing::TestWithParam<Coverage>;
 
 INSTANTIATE_TEST_SUITE_P(Coverages, VoxelizeBothCoverages, testing::Values(Coverage::Conservative, Coverage::Thin),
                          test::paramName<Coverage>);
@@ -143,9 +141,7 @@ struct MeshCase
     Coverage coverage;
 };
 
-class VoxelizeMesh : public testing::TestWithParam<MeshCase>
-{
-};
+using VoxelizeMesh = testing::TestWithParam<MeshCase>;
 
 void PrintTo(const MeshCase& mesh, std::ostream* out)
 {
