@@ -7,7 +7,6 @@
 #include "bench/bench_options.h"
 #include "bench/bench_trace.h"
 #include "core/base/grid.h"
-#include "core/headless/pipeline.h"
 #include "core/scene/camera.h"
 #include "core/scene/scene.h"
 #include "core/trace/tree_tracer.h"
@@ -15,6 +14,7 @@
 #include "core/tree/tree_data.h"
 #include "core/upload/gpu_scene.h"
 #include "io/scene/animated_scene.h"
+#include "runtime/trees.h"
 #include "vk/headless.h"
 
 #include <cstdint>

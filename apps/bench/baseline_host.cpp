@@ -4,9 +4,8 @@
 #include "bench/baseline_comparisons.h"
 #include "bench/bench_embree.h"
 #include "bench/primary_rays.h"
-#include "core/headless/compress.h"
-#include "core/headless/pipeline.h"
 #include "core/tree/tree_data.h"
+#include "runtime/trees.h"
 
 #include <chrono>
 #include <cstddef>

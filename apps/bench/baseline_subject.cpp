@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "bench/baseline_comparisons.h"
 #include "common/report.h"
-#include "core/headless/compress.h"
-#include "core/headless/tree_download.h"
+#include "runtime/trees.h"
 
 #include <utility>
 

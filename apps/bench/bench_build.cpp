@@ -4,11 +4,9 @@
 #include "bench/bench_rows.h"
 #include "bench/bench_runs.h"
 #include "bench/bench_table.h"
-#include "core/headless/compress.h"
-#include "core/headless/pipeline.h"
-#include "core/headless/tree_download.h"
 #include "core/tree/device_tree.h"
 #include "core/tree/tree_data.h"
+#include "runtime/trees.h"
 
 #include <fmt/format.h>
 

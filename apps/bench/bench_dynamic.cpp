@@ -11,10 +11,10 @@
 #include "common/session.h"
 #include "common/view.h"
 #include "core/base/kernels.h"
-#include "core/headless/pipeline.h"
 #include "core/trace/tree_tracer.h"
 #include "core/upload/gpu_scene.h"
 #include "runtime/live_scene.h"
+#include "runtime/trees.h"
 #include "zvo/version.h"
 
 #include <fmt/format.h>

@@ -36,7 +36,7 @@ constexpr std::array<const char*, 3> kActionNames = {"carve", "fill", "paint"};
 constexpr std::array<std::uint32_t, 3> kStrokeCounts = {10, 100, 1000};
 constexpr std::uint32_t kStrokesMeasured = 10; // the last ones of each stage
 constexpr std::uint32_t kHistoryRadius = 8;
-constexpr EditBounds kBounds = {kStrokeCounts.back(), 256U << 20};
+constexpr HistoryBounds kBounds = {kStrokeCounts.back(), 256U << 20};
 
 // Median and percentile of times, in milliseconds.
 struct Times

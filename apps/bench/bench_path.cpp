@@ -12,11 +12,11 @@
 #include "common/view.h"
 #include "core/base/kernels.h"
 #include "core/base/read_file.h"
-#include "core/headless/pipeline.h"
 #include "core/path/daylight.h"
 #include "core/path/path_tracer.h"
 #include "core/upload/gpu_scene.h"
 #include "io/image/hdr_image_io.h"
+#include "runtime/trees.h"
 #include "zvo/error.h"
 #include "zvo/version.h"
 

@@ -6,11 +6,9 @@
 #include "bench/bench_table.h"
 #include "bench/bench_trace.h"
 #include "common/view.h"
-#include "core/headless/compress.h"
-#include "core/headless/pipeline.h"
-#include "core/headless/tree_download.h"
 #include "core/trace/tree_tracer.h"
 #include "core/tree/device_tree.h"
+#include "runtime/trees.h"
 
 #ifdef ZVO_EMBREE
 #include "bench/bench_embree.h"

@@ -4,8 +4,8 @@
 
 #include "bench/bench_table.h"
 #include "core/base/grid.h"
-#include "core/headless/pipeline.h"
 #include "core/upload/gpu_scene.h"
+#include "runtime/trees.h"
 #include "vk/headless.h"
 #include "vk/timer.h"
 

@@ -14,11 +14,11 @@
 #include "core/base/kernels.h"
 #include "core/base/lanes.h"
 #include "core/base/tuning.h"
-#include "core/headless/pipeline.h"
 #include "core/path/daylight.h"
 #include "core/path/path_tracer.h"
 #include "core/trace/tree_tracer.h"
 #include "core/upload/gpu_scene.h"
+#include "runtime/trees.h"
 #include "zvo/error.h"
 #include "zvo/version.h"
 

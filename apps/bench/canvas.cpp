@@ -47,7 +47,7 @@ double sumIf(const std::vector<vk::PassTime>& passes, bool (*counts)(const std::
 } // namespace
 
 Canvas::Canvas(vk::HeadlessDevice& device, const BenchEditOptions& options, const Scene& scene, const Grid& grid,
-               const EditBounds& bounds)
+               const HistoryBounds& bounds)
     : m_device(device)
 {
     StaticListener listener;

@@ -20,7 +20,7 @@ class Canvas
 public:
     /// Builds the tree. Throws Error{Input} if it has no voxels.
     Canvas(vk::HeadlessDevice& device, const BenchEditOptions& options, const Scene& scene, const Grid& grid,
-           const EditBounds& bounds);
+           const HistoryBounds& bounds);
 
     /// A stroke of one dab at a random voxel of the scene.
     double stroke(BrushAction action, std::uint32_t radius);

@@ -4,10 +4,10 @@
 #include "bench/bench_scenes.h"
 #include "common/session.h"
 #include "common/view.h"
-#include "core/headless/pipeline.h"
 #include "core/light/light_tree.h"
 #include "core/path/daylight.h"
 #include "core/upload/gpu_scene.h"
+#include "runtime/trees.h"
 
 #include <algorithm>
 #include <array>

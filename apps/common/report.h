@@ -4,8 +4,8 @@
 
 #include "common/output.h"
 #include "common/scene_options.h"
-#include "core/headless/pipeline.h"
-#include "core/update/merge_rule.h"
+#include "zvo/types.h"
+#include "runtime/trees.h"
 #include "vk/device.h"
 
 #include <nlohmann/json.hpp>

@@ -5,10 +5,10 @@
 #include "common/progress.h"
 #include "common/scene_options.h"
 #include "core/base/grid.h"
-#include "core/headless/pipeline.h"
 #include "core/scene/scene.h"
 #include "core/upload/gpu_scene.h"
 #include "io/scene/animated_scene.h"
+#include "runtime/trees.h"
 #include "vk/headless.h"
 
 #include <cstdint>

@@ -7,11 +7,9 @@
 #include "common/session.h"
 #include "core/base/kernels.h"
 #include "core/file/zvo_file.h"
-#include "core/headless/attribute_packer.h"
-#include "core/headless/pipeline.h"
-#include "core/headless/tiled_build.h"
-#include "core/headless/tree_download.h"
 #include "core/upload/gpu_scene.h"
+#include "runtime/tiled_build.h"
+#include "runtime/trees.h"
 #include "zvo/error.h"
 
 #include <fmt/format.h>

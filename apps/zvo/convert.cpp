@@ -8,10 +8,10 @@
 #include "core/base/input_error.h"
 #include "core/base/kernels.h"
 #include "core/file/zvo_file.h"
-#include "core/headless/compress.h"
 #include "io/voxel/glb_write.h"
 #include "io/voxel/nvdb_write.h"
 #include "io/voxel/vox_file.h"
+#include "runtime/trees.h"
 #include "tree_export.h"
 #include "zvo/error.h"
 

@@ -3,12 +3,12 @@
 #pragma once
 
 #include "common/report.h"
-#include "core/headless/pipeline.h"
 #include "core/tree/tree_data.h"
 #include "io/scene/animated_scene.h"
 #include "options.h"
 #include "renderer.h"
 #include "runtime/live_scene.h"
+#include "runtime/trees.h"
 #include "vk/headless.h"
 
 #include <cstdint>

@@ -6,10 +6,9 @@
 #include "common/report.h"
 #include "common/session.h"
 #include "core/base/kernels.h"
-#include "core/headless/pipeline.h"
-#include "core/headless/tree_download.h"
 #include "core/upload/gpu_scene.h"
 #include "runtime/octree_sha256.h"
+#include "runtime/trees.h"
 #include "tree_export.h"
 #include "zvo/error.h"
 

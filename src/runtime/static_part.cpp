@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "runtime/static_part.h"
 
-#include "core/headless/compress.h"
 #include "core/upload/gpu_scene.h"
+#include "runtime/trees.h"
 
 #include <algorithm>
 #include <utility>

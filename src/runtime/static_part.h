@@ -2,9 +2,9 @@
 #pragma once
 
 #include "core/base/grid.h"
-#include "core/headless/pipeline.h"
 #include "core/scene/scene.h"
 #include "core/tree/device_tree.h"
+#include "runtime/trees.h"
 #include "vk/headless.h"
 #include "zvo/types.h"
 

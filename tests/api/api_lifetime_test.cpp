@@ -4,8 +4,8 @@
 #include "api/c_handles.h"
 #include "api_scene.h"
 #include "core/file/zvo_file.h"
-#include "core/headless/tree_download.h"
 #include "expect_usage.h"
+#include "runtime/trees.h"
 #include "support/failing_vulkan.h"
 
 #include <gtest/gtest.h>

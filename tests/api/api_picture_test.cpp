@@ -2,8 +2,7 @@
 // Pictures of static models, as a host makes them.
 #include "api_scene.h"
 #include "core/file/zvo_file.h"
-#include "core/headless/attribute_packer.h"
-#include "core/headless/tree_download.h"
+#include "runtime/trees.h"
 #include "support/engine_device.h"
 #include "support/errors.h"
 

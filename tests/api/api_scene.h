@@ -3,11 +3,10 @@
 #pragma once
 
 #include "core/base/kernels.h"
-#include "core/headless/compress.h"
-#include "core/headless/pipeline.h"
 #include "core/scene/camera.h"
 #include "core/trace/trace.h"
 #include "core/upload/gpu_scene.h"
+#include "runtime/trees.h"
 #include "support/device.h"
 #include "support/embedding_host.h"
 #include "support/host_model.h"

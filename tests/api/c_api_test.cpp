@@ -5,7 +5,7 @@
 #include "c_host.h"
 #include "c_program.h"
 #include "core/file/zvo_file.h"
-#include "core/headless/tree_download.h"
+#include "runtime/trees.h"
 #include "support/engine_device.h"
 #include "support/host_memory.h"
 

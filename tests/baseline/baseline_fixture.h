@@ -6,8 +6,8 @@
 #include "baseline/pointer_tree.h"
 #include "baseline/thesis_build.h"
 #include "baseline/thesis_voxelize.h"
-#include "core/headless/pipeline.h"
 #include "core/scene/camera.h"
+#include "runtime/trees.h"
 #include "vk/headless.h"
 #include "zvo/types.h"
 

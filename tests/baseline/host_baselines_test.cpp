@@ -7,11 +7,10 @@
 #include "core/base/grid.h"
 #include "core/base/morton.h"
 #include "core/file/tree_stats.h"
-#include "core/headless/pipeline.h"
-#include "core/headless/tree_download.h"
 #include "core/trace/trace.h"
 #include "core/tree/tree_data.h"
 #include "oracle/trace.h"
+#include "runtime/trees.h"
 #include "support/errors.h"
 #include "support/scenes.h"
 

@@ -2,7 +2,7 @@
 #include "baseline/slides_fixture.h"
 
 #include "baseline/baseline_kernels.h"
-#include "core/headless/run_job.h"
+#include "runtime/trees.h"
 #include "support/device.h"
 
 #include <gtest/gtest.h>

@@ -3,9 +3,9 @@
 #pragma once
 
 #include "baseline/slides_builder.h"
-#include "core/headless/pipeline.h"
 #include "core/scene/camera.h"
 #include "core/scene/scene.h"
+#include "runtime/trees.h"
 #include "vk/headless.h"
 
 #include <cstdint>

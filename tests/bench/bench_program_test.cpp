@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Tables and reports of zvo-bench.
 #include "bench/bench_run.h"
-#include "core/headless/compress.h"
+#include "runtime/trees.h"
 
 #include <gtest/gtest.h>
 

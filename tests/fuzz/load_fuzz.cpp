@@ -3,13 +3,13 @@
 // voxelized at 16^3, in a pose if something moves. If the loader refuses a file, it must throw an Error{Input} of one
 // line. All other scenes must keep the rules of Scene, and must be voxelized without an error.
 #include "core/base/kernels.h"
-#include "core/headless/pipeline.h"
 #include "core/scene/animation.h"
 #include "fuzz/gltf_mutator.h"
 #include "fuzz/mesh_mutator.h"
 #include "fuzz/require.h"
 #include "io/image/image_io.h"
 #include "io/scene/load_scene.h"
+#include "runtime/trees.h"
 #include "support/scene_check.h"
 #include "support/temp_dir.h"
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "glsl/host_trees.h"
 
-#include "core/headless/attribute_packer.h"
 #include "core/tree/tree_table.h"
 #include "glsl/host_device.h"
+#include "runtime/trees.h"
 #include "support/dags.h"
 
 #include <vector>

@@ -2,9 +2,8 @@
 // Runs every kernel of brushes once, on work as small as that of every_kernel_test.cpp.
 #include "core/base/grid.h"
 #include "core/dynamic/dynamic_octree.h"
-#include "core/headless/compress.h"
-#include "core/headless/pipeline.h"
 #include "lanes/kernel_names.h"
+#include "runtime/trees.h"
 #include "support/edit_model.h"
 #include "support/engine_device.h"
 #include "support/octree_contents.h"

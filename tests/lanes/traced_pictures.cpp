@@ -3,11 +3,11 @@
 
 #include "core/denoise/denoiser.h"
 #include "core/frame/frame_renderer.h"
-#include "core/headless/attribute_packer.h"
 #include "core/path/path_tracer.h"
 #include "core/present/present.h"
 #include "core/trace/trace.h"
 #include "core/trace/trace_depth.h"
+#include "runtime/trees.h"
 #include "support/engine_device.h"
 
 #include <gtest/gtest.h>

@@ -2,9 +2,9 @@
 // Small pictures by all of the kernels that make some. All functions note the kernels that run.
 #pragma once
 
-#include "core/headless/pipeline.h"
 #include "core/tree/device_tree.h"
 #include "lanes/kernel_names.h"
+#include "runtime/trees.h"
 
 namespace zvo::test
 {

@@ -9,6 +9,7 @@
 #include "support/octree_contents.h"
 #include "support/scenes.h"
 #include "support/tree_samples.h"
+#include "support/tree_words.h"
 
 #include <glm/ext/matrix_transform.hpp>
 #include <gtest/gtest.h>
@@ -48,21 +49,14 @@ std::vector<gpu::uint> pictureOf(const DeviceTree& tree, const ViewCamera& view,
     return device().download(buffers.image);
 }
 
-template <typename T> void append(std::vector<std::byte>& bytes, const std::vector<T>& values)
+// The static part: nodes and lists with the copy of the root behind them, attributes of nodes and voxels.
+std::vector<gpu::uint> staticWords(const DeviceTree& tree)
 {
-    const auto more = std::as_bytes(std::span(values));
-    bytes.insert(bytes.end(), more.begin(), more.end());
-}
-
-// The bytes of the static part: nodes and lists with the copy of the root behind them, attributes of nodes and voxels.
-std::vector<std::byte> staticBytes(const DeviceTree& tree)
-{
-    const std::uint32_t root = tree.overlays.static_root;
-    std::vector<std::byte> bytes;
-    append(bytes, device().download(tree.nodes, 1, root));
-    append(bytes, device().download(tree.node_attributes, 1, tree.octreeNodeCount()));
-    append(bytes, device().download(tree.voxel_attributes, 0, tree.voxel_count));
-    return bytes;
+    std::vector<gpu::uint> words;
+    test::addWords(words, device(), tree.nodes, 1, tree.overlays.static_root);
+    test::addWords(words, device(), tree.node_attributes, 1, tree.octreeNodeCount());
+    test::addWords(words, device(), tree.voxel_attributes, 0, tree.voxel_count);
+    return words;
 }
 
 constexpr Grid kGrid64 = {.origin = glm::vec3(0.0F), .voxel_size = 0.25F, .depth = 6};
@@ -172,7 +166,7 @@ TEST_P(AnimatedScenes, UpdatedIsRebuilt)
     options.structure = structure;
     LiveScene live(device(), AnimatedScene(animated), grid, options);
     EXPECT_EQ(live.tree().isDag(), structure == TreeStructure::Svdag);
-    const std::vector<std::byte> static_before = staticBytes(live.tree());
+    const std::vector<gpu::uint> static_before = staticWords(live.tree());
     for (std::uint32_t i = 0; i < shown; ++i)
     {
         const std::uint32_t frame = i * frame_count / shown;
@@ -185,7 +179,7 @@ TEST_P(AnimatedScenes, UpdatedIsRebuilt)
         ASSERT_EQ(test::difference(test::cellsOf(device(), live.tree()), test::cellsOf(device(), rebuilt.octree)), "");
         EXPECT_EQ(pictureOf(live.tree(), view, buffers), pictureOf(rebuilt.octree, view, buffers));
     }
-    EXPECT_TRUE(staticBytes(live.tree()) == static_before);
+    EXPECT_TRUE(staticWords(live.tree()) == static_before);
 }
 
 std::string nameOfCase(const testing::TestParamInfo<AnimatedScenes::ParamType>& info)

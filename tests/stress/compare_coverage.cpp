@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "stress/compare_coverage.h"
 
-#include "core/headless/pipeline.h"
 #include "core/upload/texture_pool.h"
 #include "oracle/attributes.h"
 #include "oracle/fragments.h"
 #include "oracle/morton.h"
 #include "oracle/snap.h"
 #include "oracle/voxelizer.h"
+#include "runtime/trees.h"
 #include "support/octree_access.h"
 
 #include <fmt/format.h>

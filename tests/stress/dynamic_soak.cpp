@@ -5,9 +5,9 @@
 //   zvo_dynamic_soak [--frames N]
 #include "core/base/kernels.h"
 #include "core/dynamic/dynamic_octree.h"
-#include "core/headless/pipeline.h"
 #include "core/scene/animation.h"
 #include "stress/program.h"
+#include "runtime/trees.h"
 #include "support/device.h"
 #include "support/materials_scene.h"
 #include "support/octree_contents.h"

@@ -5,10 +5,10 @@
 //
 //   zvo_ray_stress [--rays N] [--seed S]    N random rays, N aimed ones, N / 4 out of closed shells
 #include "core/base/kernels.h"
-#include "core/headless/pipeline.h"
 #include "core/trace/trace.h"
 #include "io/file/sha256.h"
 #include "stress/program.h"
+#include "runtime/trees.h"
 #include "stress/ray_judge.h"
 #include "stress/stress_rays.h"
 #include "support/device.h"

@@ -2,13 +2,12 @@
 #include "support/dynamic_machine.h"
 
 #include "support/machine_limits.h"
-
+#include "support/tree_words.h"
 #include "zvo/error.h"
 
 #include <rapidcheck.h>
 
 #include <algorithm>
-#include <array>
 #include <iterator>
 #include <set>
 #include <string>
@@ -20,9 +19,6 @@ namespace zvo::test
 namespace
 {
 
-constexpr std::array kActionNames = {"add",  "place", "bend",   "remove", "update", "slice",
-                                     "undo", "redo",  "submit", "lose",   "wait",   "settle"};
-
 const Cell* findCell(const std::vector<Cell>& cells, const Cell& cell)
 {
     const auto order = [](const Cell& c) { return std::pair(c.level, c.code); };
@@ -30,44 +26,7 @@ const Cell* findCell(const std::vector<Cell>& cells, const Cell& cell)
     return found != cells.end() && order(*found) == order(cell) ? &*found : nullptr;
 }
 
-template <typename T>
-void addWords(std::vector<gpu::uint>& words, vk::HeadlessDevice& device, const vk::BufferOf<T>& buffer,
-              std::uint64_t first, std::uint64_t count)
-{
-    if (count == 0)
-    {
-        return;
-    }
-    const std::vector<T> values = device.download(buffer, first, count);
-    const auto* begin = reinterpret_cast<const gpu::uint*>(values.data());
-    words.insert(words.end(), begin, begin + values.size() * sizeof(T) / sizeof(gpu::uint));
-}
-
 } // namespace
-
-std::ostream& operator<<(std::ostream& out, const Command& command)
-{
-    using Action = Command::Action;
-    const Action action = command.action;
-    out << kActionNames.at(static_cast<std::size_t>(action));
-    if (action == Action::Add)
-    {
-        out << " mesh " << command.item.mesh;
-    }
-    if (action == Action::Remove || action == Action::Move || action == Action::Bend)
-    {
-        out << " dynamic object " << command.object;
-    }
-    if (action == Action::Add || action == Action::Move)
-    {
-        out << " " << command.item.placement;
-    }
-    if (action == Action::Add || action == Action::Move || action == Action::Bend)
-    {
-        out << " bend " << command.item.bend;
-    }
-    return out;
-}
 
 DynamicMachine::DynamicMachine(vk::HeadlessDevice& device, const DynamicSetting& setting, DynamicScenery& scenery)
     : m_device(device), m_setting(setting), m_scenery(scenery), m_paths(device.device(), setting.compressed),
@@ -80,7 +39,7 @@ DynamicMachine::DynamicMachine(vk::HeadlessDevice& device, const DynamicSetting&
     }
     DeviceTree built = scenery.buildStatic(setting);
     m_static_emissive = built.emission.count();
-    m_static = staticBytes(built, built.nodes.count());
+    m_static = staticWords(device, built, built.nodes.count(), m_static_emissive);
     m_octree = std::make_unique<DynamicOctree>(device, std::move(built), setting.options(scenery.emissionScale()));
     see(m_line.current(), picturesOf(m_octree->tree()));
 }
@@ -118,14 +77,12 @@ void DynamicMachine::finish()
     settle();
     while (m_line.undoCount() != 0)
     {
-        Command undo;
-        undo.action = Command::Action::Undo;
-        m_commands.push_back(undo);
+        m_commands.push_back({.action = Command::Action::Undo});
         wait();
     }
     compare();
     RC_ASSERT(m_octree->tree().isDag() == m_setting.compressed);
-    RC_ASSERT(staticBytes(m_octree->tree(), m_octree->staticRoot()) == m_static);
+    RC_ASSERT(staticWords(m_device, m_octree->tree(), m_octree->staticRoot(), m_static_emissive) == m_static);
 }
 
 void DynamicMachine::add(const Item& item)
@@ -336,11 +293,9 @@ void DynamicMachine::wait()
 void DynamicMachine::settle()
 {
     wait();
-    Command update;
-    update.action = Command::Action::Update;
     for (int attempt = 0; attempt < kAttemptsMax; ++attempt)
     {
-        m_commands.push_back(update);
+        m_commands.push_back({.action = Command::Action::Update});
         wait();
         compare();
         if (!m_octree->needsUpdate() && m_line.shown() == m_wanted)
@@ -439,31 +394,6 @@ void DynamicMachine::applyRule(std::vector<Cell>& expected, std::vector<Cell>& a
             }
         }
     }
-}
-
-// The bytes of the static part, without the slot of the root that is shown. node_end: the end of the static part's
-// nodes and lists.
-std::vector<gpu::uint> DynamicMachine::staticBytes(const DeviceTree& tree, std::uint64_t node_end) const
-{
-    std::vector<gpu::uint> words;
-    const auto below_root = [](std::uint64_t count) { return std::max<std::uint64_t>(count, 1) - 1; };
-    addWords(words, m_device, tree.nodes, 1, below_root(node_end));
-    if (tree.hasAttributes())
-    {
-        addWords(words, m_device, tree.node_attributes, 1, below_root(tree.octreeNodeCount()));
-        addWords(words, m_device, tree.voxel_attributes, 0, tree.voxel_count);
-    }
-    if (tree.isDag())
-    {
-        addWords(words, m_device, tree.lists.before, 0, tree.lists.before.count());
-        addWords(words, m_device, tree.lists.voxels_before_leaf, 0, tree.lists.voxels_before_leaf.count());
-    }
-    if (m_static_emissive != 0)
-    {
-        addWords(words, m_device, tree.emission_words, 0, (tree.voxel_count + 31) / 32);
-        addWords(words, m_device, tree.emission, 0, m_static_emissive);
-    }
-    return words;
 }
 
 } // namespace zvo::test

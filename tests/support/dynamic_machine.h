@@ -2,6 +2,7 @@
 // A machine that runs random commands on a DynamicOctree, with a model of what the octree should show.
 #pragma once
 
+#include "support/command.h"
 #include "support/dynamic_scenery.h"
 #include "support/history_line.h"
 
@@ -10,41 +11,15 @@
 #include <functional>
 #include <map>
 #include <memory>
-#include <ostream>
 #include <set>
 #include <vector>
 
 namespace zvo::test
 {
 
-struct Command
-{
-    enum class Action
-    {
-        Add,
-        Move,
-        Bend,
-        Remove,
-        Update,
-        Slice, // a slice of an update, under a budget that is far too small
-        Undo,
-        Redo,
-        Submit, // submits the recorded commands as a frame, without waiting
-        Lose,   // records the frame like Submit, but then it fails and is lost
-        Wait,   // waits for all frames, then compares what is shown
-        Settle  // updates until everything is shown, then compares
-    };
-
-    Action action = Action::Settle;
-    std::uint32_t object = 0; // Move, Bend, Remove: number of the object among those present
-    Item item;                // Add; Move takes only its placement and bend, Bend only its bend
-};
-
-std::ostream& operator<<(std::ostream& out, const Command& command);
-
-/// Runs commands, and compares the octree with one that is made anew. Every frame ends with pictures. They have to
-/// equal those with which their entry was first seen; when the octrees are compared, also those of the octree made
-/// anew. The property fails at any difference.
+/// Runs commands without strokes, and compares the octree with one that is made anew. Every frame ends with pictures.
+/// They have to equal those with which their entry was first seen; when the octrees are compared, also those of the
+/// octree made anew. The property fails at any difference.
 class DynamicMachine
 {
 public:
@@ -94,7 +69,6 @@ private:
     void applyRule(std::vector<Cell>& expected, std::vector<Cell>& actual, const std::vector<Cell>& fixed,
                    const std::vector<Cell>& moving) const;
     [[nodiscard]] bool isRuled() const { return m_setting.merge != MergeRule::Average && m_setting.attributes; }
-    [[nodiscard]] std::vector<gpu::uint> staticBytes(const DeviceTree& tree, std::uint64_t node_end) const;
 
     vk::HeadlessDevice& m_device;
     DynamicSetting m_setting;

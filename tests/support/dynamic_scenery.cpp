@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "support/dynamic_scenery.h"
 
-#include "core/headless/compress.h"
-#include "core/headless/pipeline.h"
+#include "runtime/trees.h"
 #include "support/deforming_scenes.h"
 #include "support/materials_scene.h"
 

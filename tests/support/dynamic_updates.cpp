@@ -6,13 +6,19 @@
 namespace zvo::test
 {
 
+std::vector<UpdateReport> runFrame(vk::HeadlessDevice& device, DynamicOctree& octree,
+                                   const std::function<void(vk::FrameGraph&)>& record)
+{
+    const std::uint64_t frame = octree.beginFrame();
+    return octree.frameDone(frame, device.run(record));
+}
+
 UpdateReport updateAll(vk::HeadlessDevice& device, DynamicOctree& octree)
 {
     for (int attempt = 0; attempt < 64; ++attempt)
     {
-        const std::uint64_t frame = octree.beginFrame();
-        device.run([&](vk::FrameGraph& graph) { octree.update(graph); });
-        const std::vector<UpdateReport> reports = octree.frameDone(frame);
+        const std::vector<UpdateReport> reports =
+            runFrame(device, octree, [&](vk::FrameGraph& graph) { octree.update(graph); });
         if (!octree.needsUpdate())
         {
             return reports.empty() ? UpdateReport{} : reports.back();
@@ -23,19 +29,15 @@ UpdateReport updateAll(vk::HeadlessDevice& device, DynamicOctree& octree)
 
 bool undo(vk::HeadlessDevice& device, DynamicOctree& octree)
 {
-    const std::uint64_t frame = octree.beginFrame();
     bool shown = false;
-    device.run([&](vk::FrameGraph& graph) { shown = octree.undo(graph); });
-    octree.frameDone(frame);
+    runFrame(device, octree, [&](vk::FrameGraph& graph) { shown = octree.undo(graph); });
     return shown;
 }
 
 bool redo(vk::HeadlessDevice& device, DynamicOctree& octree)
 {
-    const std::uint64_t frame = octree.beginFrame();
     bool shown = false;
-    device.run([&](vk::FrameGraph& graph) { shown = octree.redo(graph); });
-    octree.frameDone(frame);
+    runFrame(device, octree, [&](vk::FrameGraph& graph) { shown = octree.redo(graph); });
     return shown;
 }
 

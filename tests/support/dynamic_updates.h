@@ -5,8 +5,15 @@
 #include "core/dynamic/dynamic_octree.h"
 #include "vk/headless.h"
 
+#include <functional>
+#include <vector>
+
 namespace zvo::test
 {
+
+/// Runs a frame, and returns the reports of its updates.
+std::vector<UpdateReport> runFrame(vk::HeadlessDevice& device, DynamicOctree& octree,
+                                   const std::function<void(vk::FrameGraph&)>& record);
 
 /// Updates until everything is shown, and returns the last report. Throws if that takes too long.
 UpdateReport updateAll(vk::HeadlessDevice& device, DynamicOctree& octree);

@@ -8,7 +8,6 @@
 #include <rapidcheck.h>
 
 #include <algorithm>
-#include <array>
 #include <iterator>
 #include <set>
 #include <string>
@@ -20,44 +19,14 @@ namespace zvo::test
 namespace
 {
 
-constexpr std::array kEditActionNames = {"dab",   "end of stroke", "undo",   "redo",  "add",
-                                         "place", "remove",        "update", "slice", "submit",
-                                         "lose",  "lose what ran", "compare"};
-constexpr std::array kBrushNames = {"carve", "fill", "paint"};
-
-bool isUpdate(const EditCommand& command)
+bool isUpdate(const Command& command)
 {
-    return command.action == EditCommand::Action::Update || command.action == EditCommand::Action::Slice;
+    return command.action == Command::Action::Update || command.action == Command::Action::Slice;
 }
 
 } // namespace
 
-std::ostream& operator<<(std::ostream& out, const EditCommand& command)
-{
-    out << kEditActionNames.at(static_cast<std::size_t>(command.action));
-    if (command.action == EditCommand::Action::Dab)
-    {
-        const Brush& brush = command.brush;
-        out << ' ' << kBrushNames.at(static_cast<std::size_t>(brush.action))
-            << (brush.shape == BrushShape::Box ? " box " : " sphere ") << brush.radius << " at " << brush.center.x
-            << ' ' << brush.center.y << ' ' << brush.center.z;
-    }
-    if (command.action == EditCommand::Action::Add)
-    {
-        out << " mesh " << command.item.mesh;
-    }
-    if (command.action == EditCommand::Action::Move || command.action == EditCommand::Action::Remove)
-    {
-        out << " dynamic object " << command.object;
-    }
-    if (command.action == EditCommand::Action::Add || command.action == EditCommand::Action::Move)
-    {
-        out << ' ' << command.item.placement << " bend " << command.item.bend;
-    }
-    return out;
-}
-
-EditMachine::EditMachine(vk::HeadlessDevice& device, const DynamicSetting& setting, const EditBounds& bounds,
+EditMachine::EditMachine(vk::HeadlessDevice& device, const DynamicSetting& setting, const HistoryBounds& bounds,
                          DynamicScenery& scenery)
     : m_device(device), m_setting(setting), m_scenery(scenery), m_entries_max(bounds.entries_max)
 {
@@ -67,9 +36,9 @@ EditMachine::EditMachine(vk::HeadlessDevice& device, const DynamicSetting& setti
     m_line.emplace_back(setting.grid(), cellsOf(device, m_octree->tree()), setting.attributes);
 }
 
-void EditMachine::run(const EditCommand& command)
+void EditMachine::run(const Command& command)
 {
-    using Action = EditCommand::Action;
+    using Action = Command::Action;
     switch (command.action)
     {
     case Action::Submit:
@@ -84,7 +53,7 @@ void EditMachine::run(const EditCommand& command)
     case Action::Add:
         add(command.item);
         break;
-    case Action::Compare:
+    case Action::Settle:
         compare();
         break;
     default:
@@ -166,9 +135,9 @@ void EditMachine::record(vk::FrameGraph& graph)
 }
 
 // Returns false if the command must be tried again.
-bool EditMachine::recordOne(vk::FrameGraph& graph, const EditCommand& command)
+bool EditMachine::recordOne(vk::FrameGraph& graph, const Command& command)
 {
-    using Action = EditCommand::Action;
+    using Action = Command::Action;
     switch (command.action)
     {
     case Action::Dab:
@@ -200,14 +169,14 @@ bool EditMachine::recordOne(vk::FrameGraph& graph, const EditCommand& command)
     return true;
 }
 
-void EditMachine::move(const EditCommand& command)
+void EditMachine::move(const Command& command)
 {
     if (m_wanted.empty())
     {
         return;
     }
     const auto object = std::next(m_wanted.begin(), command.object % std::ssize(m_wanted));
-    if (command.action == EditCommand::Action::Move)
+    if (command.action == Command::Action::Move)
     {
         Item& item = object->second;
         item.placement = command.item.placement;
@@ -319,7 +288,7 @@ void EditMachine::settle()
 {
     for (int attempt = 0; attempt < kAttemptsMax; ++attempt)
     {
-        m_commands.push_back({EditCommand::Action::Update});
+        m_commands.push_back({Command::Action::Update});
         submit();
         wait(0);
         if (m_shown == m_wanted && !m_octree->needsUpdate())
@@ -350,9 +319,9 @@ void EditMachine::compareShown()
 void EditMachine::finish()
 {
     compare();
-    for (const EditCommand::Action action : {EditCommand::Action::Undo, EditCommand::Action::Redo})
+    for (const Command::Action action : {Command::Action::Undo, Command::Action::Redo})
     {
-        const bool undo = action == EditCommand::Action::Undo;
+        const bool undo = action == Command::Action::Undo;
         while (undo ? m_at != 0 : m_at + 1 != m_line.size())
         {
             m_commands.push_back({action});

@@ -2,6 +2,7 @@
 // A machine that runs strokes of a brush on a DynamicOctree with dynamic objects, and a model of the result.
 #pragma once
 
+#include "support/command.h"
 #include "support/dynamic_scenery.h"
 #include "support/edit_model.h"
 
@@ -10,47 +11,11 @@
 #include <map>
 #include <memory>
 #include <optional>
-#include <ostream>
 #include <utility>
 #include <vector>
 
 namespace zvo::test
 {
-
-struct EditCommand
-{
-    enum class Action
-    {
-        Dab,
-        EndStroke,
-        Undo,
-        Redo,
-        Add,
-        Move,
-        Remove,
-        Update,
-        Slice,   // a slice of an update, under a budget that is far too small
-        Submit,  // submits the recorded commands as a frame, without waiting
-        Lose,    // records the frame like Submit, but then it fails and is lost
-        LoseRun, // the frame is lost after the device has run it
-        Compare  // waits for all frames, and updates until all dynamic objects show their last poses
-    };
-
-    Action action = Action::Compare;
-    Brush brush = {};         // Dab
-    std::uint32_t object = 0; // Move, Remove: number of the object among those present
-    Item item = {};           // Add; Move takes only its placement and bend
-};
-
-/// A dab that fills or paints in blue.
-inline EditCommand dab(BrushAction action, const gpu::ivec3& center, std::uint32_t radius,
-                       BrushShape shape = BrushShape::Sphere)
-{
-    constexpr std::uint32_t kBlue = 0xFF0000;
-    return {.action = EditCommand::Action::Dab, .brush = {shape, action, center, radius, kBlue}};
-}
-
-std::ostream& operator<<(std::ostream& out, const EditCommand& command);
 
 /// Runs commands, and compares what is shown with a model that edits voxel by voxel. Where dynamic objects are, the
 /// model merges their voxels, or takes those of a rebuild of the unedited scene. The property fails at any difference.
@@ -60,10 +25,10 @@ public:
     static constexpr std::size_t kObjectsMax = 3; // further objects are not added
 
     /// scenery must be made for the setting. Device and scenery must outlive the machine.
-    EditMachine(vk::HeadlessDevice& device, const DynamicSetting& setting, const EditBounds& bounds,
+    EditMachine(vk::HeadlessDevice& device, const DynamicSetting& setting, const HistoryBounds& bounds,
                 DynamicScenery& scenery);
 
-    void run(const EditCommand& command);
+    void run(const Command& command);
 
     /// Compares; then undoes all entries, comparing each, and redoes them, comparing again.
     void finish();
@@ -90,8 +55,8 @@ private:
     void add(const Item& item);
     bool dab(vk::FrameGraph& graph, const Brush& brush);
     void record(vk::FrameGraph& graph);
-    [[nodiscard]] bool recordOne(vk::FrameGraph& graph, const EditCommand& command);
-    void move(const EditCommand& command);
+    [[nodiscard]] bool recordOne(vk::FrameGraph& graph, const Command& command);
+    void move(const Command& command);
     void update(vk::FrameGraph& graph, double budget_ms);
     void submit(Fate fate = Fate::Submit);
     void wait(std::size_t flights_left);
@@ -111,7 +76,7 @@ private:
     Objects m_wanted;                           // last requested states of the objects
     Objects m_under_way;                        // states that the update under way is going to show
     std::optional<Objects> m_shown = Objects(); // after the last frame; nothing if an update failed or a frame was lost
-    std::deque<EditCommand> m_commands;         // of the next frame
+    std::deque<Command> m_commands;             // of the next frame
     std::deque<std::pair<std::uint64_t, vk::Submission>> m_flights;
 };
 

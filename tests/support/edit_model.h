@@ -4,7 +4,7 @@
 
 #include "core/base/grid.h"
 #include "core/edit/brush.h"
-#include "core/update/merge_rule.h"
+#include "zvo/types.h"
 #include "support/octree_contents.h"
 
 #include <cstdint>

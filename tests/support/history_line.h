@@ -73,9 +73,10 @@ public:
     }
 
     /// Drops one entry: the last one that can be redone or, if there is none, the oldest.
+    [[nodiscard]] bool canDrop() const { return m_at > 1 || redoCount() != 0; }
     void drop()
     {
-        RC_ASSERT(m_at > 1 || redoCount() != 0);
+        RC_ASSERT(canDrop());
         const bool is_undone = redoCount() != 0;
         m_line.erase(is_undone ? m_line.end() - 1 : m_line.begin() + 1);
         m_at -= is_undone ? 0 : 1;
@@ -101,7 +102,9 @@ public:
     }
 
     [[nodiscard]] const Shown& shown() const { return m_shown.at(m_line[m_at]); }
+    [[nodiscard]] const Shown& shown(std::uint64_t id) const { return m_shown.at(id); }
     [[nodiscard]] std::uint64_t current() const { return m_line[m_at]; }
+    [[nodiscard]] const std::vector<std::uint64_t>& entries() const { return m_line; }
 
     /// The entry that is shown in place of one that has ended: itself, or the one that it fell back to.
     [[nodiscard]] std::uint64_t endedAs(std::uint64_t id) const
@@ -112,6 +115,8 @@ public:
 
     [[nodiscard]] std::size_t undoCount() const { return m_at; }
     [[nodiscard]] std::size_t redoCount() const { return m_line.size() - 1 - m_at; }
+    /// The pending entries, and what replaces them on failure.
+    [[nodiscard]] const std::deque<std::pair<std::uint64_t, std::uint64_t>>& pending() const { return m_pending; }
     [[nodiscard]] bool isPending() const { return !m_pending.empty(); }
 
 private:
@@ -120,8 +125,8 @@ private:
     std::vector<std::uint64_t> m_line = {0};
     std::size_t m_at = 0;
     std::uint64_t m_last = 0;
-    std::map<std::uint64_t, std::uint64_t> m_fell_to;              // by failed entry
-    std::deque<std::pair<std::uint64_t, std::uint64_t>> m_pending; // entries, and what replaces them on failure
+    std::map<std::uint64_t, std::uint64_t> m_fell_to; // by failed entry
+    std::deque<std::pair<std::uint64_t, std::uint64_t>> m_pending;
 };
 
 } // namespace zvo::test

@@ -4,6 +4,7 @@
 #include <rapidcheck.h>
 
 #include <algorithm>
+#include <ranges>
 
 namespace zvo::test
 {
@@ -15,7 +16,7 @@ HistoryMachine::HistoryMachine(const Setup& setup)
                                        .node_bytes = 3,
                                        .voxel_block_bytes = 5}),
       m_history(m_arena, setup.bounds), m_node_writers(kStatic + setup.nodes), m_block_writers(setup.blocks),
-      m_root_slots(kStatic + setup.nodes)
+      m_root_slots(kStatic + setup.nodes), m_line(setup.bounds.entries_max), m_before(m_line)
 {
     beginFrame();
 }
@@ -32,6 +33,8 @@ void HistoryMachine::update(std::uint32_t nodes, std::uint32_t voxels, std::uint
     m_owned[writer] = *region;
     m_frames.back().regions.emplace(writer, *region);
 
+    const auto kept = std::make_shared<const int>(writer);
+    m_kept[writer] = kept;
     const std::vector<LayerState> layers = {{static_cast<std::uint32_t>(writer), used}};
     Root root{writer, *region, layers};
     root.region.node_capacity = 1 + used % nodes;
@@ -42,31 +45,24 @@ void HistoryMachine::update(std::uint32_t nodes, std::uint32_t voxels, std::uint
     }
     m_root_slots[region->first_node] = root;
     m_shown = root;
-    const std::uint64_t id = m_history.push(region, layers);
-    m_updates.push_back({id, m_frames.back().number, writer, m_entries[m_current], succeeds, root.region});
-    m_truth[id] = root;
-    m_told[id] = {writer, layers};
-    pushed(id);
+    const std::uint64_t id = m_history.push(region, {{layers.front().layer, layers.front().version, kept}});
+    m_updates.push_back({id, m_frames.back().number, writer, succeeds, root.region});
+    push(id, {root, writer, layers});
 }
 
 void HistoryMachine::showStatic()
 {
-    const std::uint64_t id = m_history.push(std::nullopt, {});
     m_shown = {};
-    m_truth[id] = {};
-    m_told[id] = {};
-    pushed(id);
+    push(m_history.push(std::nullopt, {}), {});
 }
 
 void HistoryMachine::move(bool back)
 {
     const std::optional<RootEntry> entry = back ? m_history.undo() : m_history.redo();
-    RC_ASSERT(entry.has_value() == (back ? m_current > 0 : m_current + 1 < m_entries.size()));
+    RC_ASSERT(entry.has_value() == m_line.move(back ? -1 : 1));
     if (entry)
     {
-        m_current += back ? std::size_t(-1) : 1;
         m_shown = entry->region ? m_root_slots[entry->region->first_node] : Root{};
-        RC_ASSERT(m_shown == m_truth[m_entries[m_current]]);
         checkCurrent();
     }
 }
@@ -95,9 +91,8 @@ void HistoryMachine::loseFrame()
         m_updates.pop_back();
     }
     m_frame_list.lost();
-    m_entries = m_before.entries;
-    m_current = m_before.current;
-    m_shown = m_truth[m_entries[m_current]];
+    m_line.takeBack(m_before);
+    m_shown = m_line.shown().truth;
     nextFrame();
 }
 
@@ -128,23 +123,19 @@ void HistoryMachine::endUpdate()
     else
     {
         m_history.fail(update.id);
-        for (Update& later : m_updates)
-        {
-            later.before = later.before == update.id ? update.before : later.before;
-        }
-        removeFailed(m_entries, m_current, update);
-        removeFailed(m_before.entries, m_before.current, update);
     }
+    m_line.end(update.id, !update.succeeds);
+    m_before.end(update.id, !update.succeeds);
     RC_ASSERT(m_history.entryBytes() == bytesOfEntries());
 }
 
 void HistoryMachine::checkEnd()
 {
-    while (m_current > 0)
+    while (m_line.undoCount() != 0)
     {
         move(true);
     }
-    while (m_current + 1 < m_entries.size())
+    while (m_line.redoCount() != 0)
     {
         move(false);
     }
@@ -167,8 +158,8 @@ void HistoryMachine::checkEnd()
 
 void HistoryMachine::check()
 {
-    RC_ASSERT(m_history.undoCount() == m_current);
-    RC_ASSERT(m_history.redoCount() == m_entries.size() - 1 - m_current);
+    RC_ASSERT(m_history.undoCount() == m_line.undoCount());
+    RC_ASSERT(m_history.redoCount() == m_line.redoCount());
     checkCurrent();
     RC_ASSERT(isIntact(m_shown.writer, m_shown.region));
     for (const Frame& frame : m_frames)
@@ -178,9 +169,10 @@ void HistoryMachine::check()
             RC_ASSERT(isIntact(writer, region));
         }
     }
-    for (const std::uint64_t id : m_entries)
+    for (const std::uint64_t id : m_line.entries())
     {
-        RC_ASSERT(isIntact(m_truth[id].writer, m_truth[id].region));
+        const Root& truth = m_line.shown(id).truth;
+        RC_ASSERT(isIntact(truth.writer, truth.region));
     }
     m_frames.back().regions.emplace(m_shown.writer, m_shown.region); // the frame traces what is shown
     checkLayers();
@@ -189,7 +181,7 @@ void HistoryMachine::check()
 void HistoryMachine::beginFrame()
 {
     m_frames.push_back({m_frame_list.begin(), {}});
-    m_before = {m_entries, m_current};
+    m_before = m_line;
     m_line_changed = false;
 }
 
@@ -210,122 +202,84 @@ bool HistoryMachine::isIntact(int writer, const OverlayRegion& region) const
            std::all_of(block, block + region.voxel_capacity / kVoxelBlock, is_writers);
 }
 
-std::set<int> HistoryMachine::writersOfEntries()
+std::set<int> HistoryMachine::writersOf(const Line& line)
 {
     std::set<int> writers;
-    for (const std::uint64_t id : m_entries)
+    for (const std::uint64_t id : line.entries())
     {
-        if (const int writer = m_told[id].writer; writer != 0)
-        {
-            writers.insert(writer);
-        }
+        writers.insert(line.shown(id).writer);
     }
+    writers.erase(0);
     return writers;
-}
-
-// Removes a failed entry, or replaces it by the entry before it if that no longer precedes it. Entries that were
-// dropped for it stay dropped.
-void HistoryMachine::removeFailed(std::vector<std::uint64_t>& entries, std::size_t& current, const Update& update)
-{
-    for (std::size_t i = 0; i < entries.size(); ++i)
-    {
-        if (entries[i] == update.id && entries[i - 1] == update.before)
-        {
-            entries.erase(entries.begin() + static_cast<std::ptrdiff_t>(i));
-            current -= current >= i ? 1 : 0;
-        }
-        else if (entries[i] == update.id)
-        {
-            entries[i] = update.before;
-        }
-    }
 }
 
 std::uint64_t HistoryMachine::bytesOfEntries()
 {
     std::uint64_t bytes = 0;
-    for (const int writer : writersOfEntries())
+    for (const int writer : writersOf(m_line))
     {
         bytes += m_arena.bytes(m_owned[writer]);
     }
     return bytes;
 }
 
-// Whether the region would fit if only the entries held regions.
-bool HistoryMachine::fitsBesideEntries(std::uint32_t nodes, std::uint32_t voxels)
+// Whether the region would fit if only the entries of line held regions.
+bool HistoryMachine::fitsBeside(const Line& line, std::uint32_t nodes, std::uint32_t voxels)
 {
     std::vector<bool> free_nodes(m_node_writers.size(), true);
     std::vector<bool> free_blocks(m_block_writers.size(), true);
     std::fill_n(free_nodes.begin(), kStatic, false);
-    for (const int writer : writersOfEntries())
+    for (const int writer : writersOf(line))
     {
         const OverlayRegion& region = m_owned[writer];
         std::fill_n(free_nodes.begin() + region.first_node, region.node_capacity, false);
         std::fill_n(free_blocks.begin() + region.first_voxel / kVoxelBlock, region.voxel_capacity / kVoxelBlock, false);
     }
-    const auto has_run = [](const std::vector<bool>& line, std::size_t length)
-    { return length == 0 || std::search_n(line.begin(), line.end(), length, true) != line.end(); };
+    const auto has_run = [](const std::vector<bool>& free, std::size_t length)
+    { return length == 0 || std::search_n(free.begin(), free.end(), length, true) != free.end(); };
     return has_run(free_nodes, nodes) && has_run(free_blocks, (voxels + 31) / 32);
-}
-
-bool HistoryMachine::dropEntry()
-{
-    if (m_current + 1 < m_entries.size())
-    {
-        m_entries.pop_back();
-        return true;
-    }
-    if (m_current > 1)
-    {
-        m_entries.erase(m_entries.begin() + 1);
-        --m_current;
-        return true;
-    }
-    return false;
 }
 
 std::optional<OverlayRegion> HistoryMachine::allocate(std::uint32_t nodes, std::uint32_t voxels)
 {
-    RC_ASSERT(m_history.fitsLater(nodes, voxels) == fitsBesideEntries(nodes, voxels));
+    RC_ASSERT(m_history.fitsLater(nodes, voxels) == fitsBeside(m_line, nodes, voxels));
     const bool nothing_waits = m_history.waitingBytes() == 0;
-    const std::size_t count = m_entries.size();
     const std::optional<OverlayRegion> region = m_history.allocate(nodes, voxels);
-    const std::size_t dropped = count - (m_history.undoCount() + m_history.redoCount() + 1);
-    for (std::size_t i = 0; i < dropped; ++i)
+    bool has_dropped = false;
+    for (; m_line.entries().size() > m_history.undoCount() + m_history.redoCount() + 1; has_dropped = true)
     {
-        RC_ASSERT(!fitsBesideEntries(nodes, voxels)); // dropping this entry was necessary
-        RC_ASSERT(dropEntry());
+        RC_ASSERT(!fitsBeside(m_line, nodes, voxels)); // dropping this entry was necessary
+        m_line.drop();
         m_line_changed = true;
     }
     if (region)
     {
         return region;
     }
-    if (fitsBesideEntries(nodes, voxels))
+    if (fitsBeside(m_line, nodes, voxels))
     {
-        RC_ASSERT(dropped != 0u || !nothing_waits);
+        RC_ASSERT(has_dropped || !nothing_waits);
         return region;
     }
-    RC_ASSERT(dropped == 0u); // nothing was dropped, because dropping everything would not have helped:
-    const std::vector<std::uint64_t> entries = m_entries;
-    const std::size_t current = m_current;
-    while (dropEntry())
+    RC_ASSERT(!has_dropped); // nothing was dropped, because dropping everything would not have helped:
+    Line shorter = m_line;
+    while (shorter.canDrop())
     {
-        RC_ASSERT(!fitsBesideEntries(nodes, voxels));
+        shorter.drop();
+        RC_ASSERT(!fitsBeside(shorter, nodes, voxels));
     }
-    m_entries = entries;
-    m_current = current;
     return region;
 }
 
-void HistoryMachine::pushed(std::uint64_t id)
+// An entry was pushed. The oldest ones fall off beyond the bounds.
+void HistoryMachine::push(std::uint64_t id, const Entry& entry)
 {
     m_line_changed = true;
-    m_entries.resize(m_current + 1);
-    m_entries.push_back(id);
-    ++m_current;
-    while ((m_entries.size() - 1 > m_bounds.entries_max || bytesOfEntries() > m_bounds.bytes_max) && dropEntry())
+    m_line.push(entry, entry.writer != 0);
+    RC_ASSERT(m_line.current() == id);
+    while (bytesOfEntries() > m_bounds.bytes_max && m_line.canDrop())
     {
+        m_line.drop();
     }
     RC_ASSERT(m_history.entryBytes() == bytesOfEntries());
 }
@@ -333,11 +287,11 @@ void HistoryMachine::pushed(std::uint64_t id)
 void HistoryMachine::checkCurrent()
 {
     const RootEntry entry = m_history.current();
-    const Told& told = m_told[m_entries[m_current]];
-    RC_ASSERT(entry.id == m_entries[m_current]);
+    const Entry& told = m_line.shown();
+    RC_ASSERT(entry.id == m_line.current());
     RC_ASSERT(std::equal(entry.layers.begin(), entry.layers.end(), told.layers.begin(), told.layers.end()));
     RC_ASSERT(entry.region == (told.writer != 0 ? std::optional(m_owned[told.writer]) : std::nullopt));
-    RC_ASSERT(m_shown == m_truth[entry.id]);
+    RC_ASSERT(m_shown == told.truth);
     RC_ASSERT(entry.pending == std::any_of(m_updates.begin(), m_updates.end(),
                                            [&](const Update& update) { return update.id == entry.id; }));
     if (!entry.pending)
@@ -346,26 +300,22 @@ void HistoryMachine::checkCurrent()
     }
 }
 
-// Checks that the history knows exactly the layers that may be shown again.
+// Checks that the history keeps exactly the layers that may be shown again, and those of updates under way.
 void HistoryMachine::checkLayers()
 {
-    std::set<std::uint32_t> expected; // a layer's number is that of its writer
-    for (const std::uint64_t id : m_entries)
+    std::set<int> expected = writersOf(m_line); // a layer's number is that of its writer
+    for (const auto& [entry, fallback] : m_line.pending())
     {
-        expected.insert(static_cast<std::uint32_t>(m_told[id].writer));
+        expected.insert(m_line.shown(entry).writer);
+        expected.insert(m_line.shown(fallback).writer);
     }
-    for (const Update& update : m_updates)
+    if (m_line_changed)
     {
-        expected.insert(static_cast<std::uint32_t>(m_told[update.before].writer));
-    }
-    for (const std::uint64_t id : m_line_changed ? m_before.entries : std::vector<std::uint64_t>{})
-    {
-        expected.insert(static_cast<std::uint32_t>(m_told[id].writer));
+        expected.merge(writersOf(m_before));
     }
     expected.erase(0);
-    std::set<std::uint32_t> seen;
-    m_history.forEachLayer([&](const LayerState& state) { seen.insert(state.layer); });
-    RC_ASSERT(seen == expected);
+    std::erase_if(m_kept, [](const auto& entry) { return entry.second.expired(); });
+    RC_ASSERT(std::ranges::equal(std::views::keys(m_kept), expected));
 }
 
 } // namespace zvo::test

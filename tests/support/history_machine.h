@@ -2,11 +2,12 @@
 #pragma once
 
 #include "core/overlay/root_history.h"
+#include "support/history_line.h"
 
-#include <cstddef>
 #include <cstdint>
 #include <deque>
 #include <map>
+#include <memory>
 #include <optional>
 #include <set>
 #include <vector>
@@ -70,17 +71,18 @@ private:
 
         bool operator==(const Root&) const = default;
     };
-    struct Told // the expected state of an entry
+    struct Entry
     {
+        Root truth; // what it shows on the device
         int writer = 0;
-        std::vector<LayerState> layers;
+        std::vector<LayerState> layers; // as pushed
     };
+    using Line = HistoryLine<Entry>;
     struct Update
     {
         std::uint64_t id;
         std::uint64_t frame;
         int writer;
-        std::uint64_t before; // entry that was current before
         bool succeeds;
         OverlayRegion used;
     };
@@ -94,13 +96,11 @@ private:
     void mark(const OverlayRegion& region, int writer);
     [[nodiscard]] bool isIntact(int writer, const OverlayRegion& region) const;
 
-    [[nodiscard]] std::set<int> writersOfEntries();
-    static void removeFailed(std::vector<std::uint64_t>& entries, std::size_t& current, const Update& update);
+    [[nodiscard]] static std::set<int> writersOf(const Line& line);
     [[nodiscard]] std::uint64_t bytesOfEntries();
-    bool fitsBesideEntries(std::uint32_t nodes, std::uint32_t voxels);
-    bool dropEntry();
+    bool fitsBeside(const Line& line, std::uint32_t nodes, std::uint32_t voxels);
     std::optional<OverlayRegion> allocate(std::uint32_t nodes, std::uint32_t voxels);
-    void pushed(std::uint64_t id);
+    void push(std::uint64_t id, const Entry& entry);
     void checkCurrent();
     void checkLayers();
 
@@ -116,17 +116,11 @@ private:
     std::deque<Frame> m_frames; // the last frame is being recorded
     std::uint64_t m_frame_done = 0;
     std::deque<Update> m_updates;
-    std::vector<std::uint64_t> m_entries{0}; // their ids
-    std::size_t m_current = 0;
-    struct
-    {
-        std::vector<std::uint64_t> entries;
-        std::size_t current = 0;
-    } m_before;                            // the line when the frame began
-    bool m_line_changed = false;           // since the frame began
-    std::map<std::uint64_t, Root> m_truth; // what each entry shows on the device
-    std::map<std::uint64_t, Told> m_told;
-    std::map<int, OverlayRegion> m_owned; // regions held by entries, by writer
+    Line m_line;                                    // the entries that the history should have
+    Line m_before;                                  // the line when the frame began
+    bool m_line_changed = false;                    // since the frame began
+    std::map<int, std::weak_ptr<const int>> m_kept; // what the layers keep, by writer
+    std::map<int, OverlayRegion> m_owned;           // regions held by entries, by writer
 };
 
 } // namespace zvo::test

@@ -2,8 +2,8 @@
 // Voxel sets of lattice triangles, and symmetries of the grid.
 #pragma once
 
-#include "core/headless/pipeline.h"
 #include "oracle/morton.h"
+#include "runtime/trees.h"
 #include "stress/lattice_triangles.h"
 #include "support/octree_access.h"
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "support/moved_scene.h"
 
-#include "core/headless/pipeline.h"
 #include "core/octree/octree_build.h"
 #include "runtime/octree_sha256.h"
+#include "runtime/trees.h"
 #include "support/deforming_scenes.h"
 #include "support/engine_device.h"
 

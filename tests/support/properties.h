@@ -19,4 +19,10 @@ template <typename Testable> void checkProperty(int cases, Testable&& property)
     checkPropertyOf(cases, rc::detail::toProperty(std::forward<Testable>(property)));
 }
 
+/// A number from low to high - 1, uniform also in small cases, for which rc::gen::inRange gives only the lowest.
+template <typename T> rc::Gen<T> anyBetween(T low, T high)
+{
+    return rc::gen::resize(rc::kNominalSize, rc::gen::inRange(low, high));
+}
+
 } // namespace zvo::test

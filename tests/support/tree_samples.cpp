@@ -13,6 +13,7 @@
 #include <map>
 #include <numeric>
 #include <random>
+#include <stdexcept>
 #include <utility>
 
 namespace zvo::test
@@ -175,6 +176,18 @@ std::vector<TreeSample> treeSamples()
     }
     add("checkers", checkers, 5);
     return samples;
+}
+
+TreeData treeSample(const std::string& name)
+{
+    for (TreeSample& sample : treeSamples())
+    {
+        if (sample.name == name)
+        {
+            return std::move(sample.tree);
+        }
+    }
+    throw std::out_of_range(name);
 }
 
 std::string treeDifference(const TreeData& actual, const TreeData& expected)

@@ -35,6 +35,9 @@ struct TreeSample
 /// Some also have packed attributes, with names that end in "_with_attributes_4" or "_block".
 std::vector<TreeSample> treeSamples();
 
+/// The sample of this name.
+TreeData treeSample(const std::string& name);
+
 /// Returns the first difference of two trees, or "".
 std::string treeDifference(const TreeData& actual, const TreeData& expected);
 

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "core/base/grid.h"
-#include "core/headless/pipeline.h"
 #include "core/scene/scene.h"
+#include "runtime/trees.h"
 #include "vk/headless.h"
 #include "zvo/types.h"
 

@@ -6,9 +6,8 @@
 #include "common/tree_input.h"
 #include "common/view.h"
 #include "core/file/zvo_file.h"
-#include "core/headless/compress.h"
-#include "core/headless/flatten.h"
-#include "core/headless/tree_download.h"
+#include "runtime/flatten.h"
+#include "runtime/trees.h"
 #include "zvo/error.h"
 
 #include <fmt/format.h>

@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <cstring>
-#include <set>
 #include <utility>
 
 namespace zvo
@@ -99,7 +98,7 @@ DynamicObjects::DynamicObjects(vk::Uploader& device, const Grid& grid, const Dyn
 
 DynamicObjectId DynamicObjects::add(std::shared_ptr<const DynamicMesh> mesh, Pose pose)
 {
-    if (presentObjects().size() == gpu::kLayersMax)
+    if (m_objects.size() == gpu::kLayersMax)
     {
         throw Error(ErrorCode::Usage, fmt::format("an octree takes {} dynamic objects at most", gpu::kLayersMax));
     }
@@ -113,14 +112,16 @@ DynamicObjectId DynamicObjects::add(std::shared_ptr<const DynamicMesh> mesh, Pos
                     "the dynamic object was uploaded without attributes, the static octree or DAG has them");
     }
     checkPose(*mesh, pose);
-    Object object;
-    object.buffers = makeDynamicObject(m_device, mesh->plan, mesh->uploaded, mesh->deform);
+    // Frames in flight may still use what nothing keeps any more.
+    const auto drop = [&queue = m_deletion_queue](Object* dropped) { queue.keep(std::unique_ptr<Object>(dropped)); };
+    const std::shared_ptr<Object> object(new Object(), drop);
+    object->buffers = makeDynamicObject(m_device, mesh->plan, mesh->uploaded, mesh->deform);
     const RowShape shape = RowShape::on(m_device.device());
-    object.capacities = m_options.minimal_capacities ? LayerCapacities{{1, 0, 0}, 1, 1}
-                                                     : LayerCapacities::estimate(mesh->uploaded, m_grid, shape);
-    object.mesh = std::move(mesh);
-    object.version = addPose(std::move(pose));
-    m_objects.emplace(m_next_object, std::move(object));
+    object->capacities = m_options.minimal_capacities ? LayerCapacities{{1, 0, 0}, 1, 1}
+                                                      : LayerCapacities::estimate(mesh->uploaded, m_grid, shape);
+    object->mesh = std::move(mesh);
+    put(*object, std::move(pose));
+    m_objects.emplace(m_next_object, object);
     return m_next_object++;
 }
 
@@ -128,39 +129,35 @@ void DynamicObjects::setPose(DynamicObjectId object, Pose pose)
 {
     Object& m = presentObject(object);
     checkPose(*m.mesh, pose);
-    if (!isSame(pose, *m_poses.at(m.version)))
+    if (!isSame(pose, *m.pose))
     {
-        m.version = addPose(std::move(pose));
+        put(m, std::move(pose));
     }
 }
 
 void DynamicObjects::remove(DynamicObjectId object)
 {
-    Object& m = presentObject(object);
-    m.present = false;
-    dropLayer(m);
+    dropLayer(presentObject(object));
+    m_objects.erase(object);
 }
 
 void DynamicObjects::bringBack(std::span<const LayerState> states)
 {
-    for (auto& [id, object] : m_objects)
+    const auto before = std::exchange(m_objects, {});
+    for (const LayerState& state : states)
     {
-        const auto state = std::ranges::find(states, id, &LayerState::layer);
-        object.present = state != states.end();
-        if (object.present)
+        const auto& shown = *static_cast<const Shown*>(state.kept.get());
+        shown.object->pose = shown.pose;
+        shown.object->version = state.version;
+        m_objects[state.layer] = shown.object;
+    }
+    for (const auto& [id, object] : before)
+    {
+        if (!m_objects.contains(id))
         {
-            object.version = state->version;
-        }
-        else
-        {
-            dropLayer(object);
+            dropLayer(*object);
         }
     }
-}
-
-bool DynamicObjects::isEmpty() const
-{
-    return std::ranges::none_of(m_objects, [](const auto& entry) { return entry.second.present; });
 }
 
 std::vector<LayerState> DynamicObjects::states() const
@@ -168,10 +165,7 @@ std::vector<LayerState> DynamicObjects::states() const
     std::vector<LayerState> states;
     for (const auto& [id, object] : m_objects)
     {
-        if (object.present)
-        {
-            states.push_back({id, object.version});
-        }
+        states.push_back({id, object->version, std::make_shared<const Shown>(Shown{object, object->pose})});
     }
     return states;
 }
@@ -179,7 +173,7 @@ std::vector<LayerState> DynamicObjects::states() const
 std::vector<const LayerBuffers*> DynamicObjects::layers()
 {
     std::vector<const LayerBuffers*> layers;
-    for (const Object* object : presentObjects())
+    for (const auto& [id, object] : m_objects)
     {
         layers.push_back(object->layer.get());
     }
@@ -189,7 +183,7 @@ std::vector<const LayerBuffers*> DynamicObjects::layers()
 std::uint64_t DynamicObjects::leafCapacity()
 {
     std::uint64_t leaves = 0;
-    for (const Object* object : presentObjects())
+    for (const auto& [id, object] : m_objects)
     {
         leaves += object->capacities.leaves;
     }
@@ -199,24 +193,11 @@ std::uint64_t DynamicObjects::leafCapacity()
 DynamicObjects::Object& DynamicObjects::presentObject(DynamicObjectId id)
 {
     const auto found = m_objects.find(id);
-    if (found == m_objects.end() || !found->second.present)
+    if (found == m_objects.end())
     {
         throw Error(ErrorCode::Usage, fmt::format("there is no dynamic object {}", id));
     }
-    return found->second;
-}
-
-std::vector<DynamicObjects::Object*> DynamicObjects::presentObjects()
-{
-    std::vector<Object*> objects;
-    for (auto& [id, object] : m_objects)
-    {
-        if (object.present)
-        {
-            objects.push_back(&object);
-        }
-    }
-    return objects;
+    return *found->second;
 }
 
 // Drops the layer, which is made anew when it is needed again.
@@ -229,47 +210,22 @@ void DynamicObjects::dropLayer(Object& object)
     }
 }
 
-std::uint64_t DynamicObjects::addPose(Pose pose)
+// Puts the object into another pose.
+void DynamicObjects::put(Object& object, Pose&& pose)
 {
-    m_poses.emplace(m_next_version, std::make_shared<const Pose>(std::move(pose)));
-    return m_next_version++;
-}
-
-void DynamicObjects::forgetPoses(std::span<const LayerState> states)
-{
-    std::set<std::uint64_t> versions;
-    std::set<DynamicObjectId> shown;
-    for (const LayerState& state : states)
-    {
-        versions.insert(state.version);
-        shown.insert(state.layer);
-    }
-    for (auto it = m_objects.begin(); it != m_objects.end();)
-    {
-        if (it->second.present || shown.contains(it->first))
-        {
-            versions.insert(it->second.version);
-            ++it;
-        }
-        else
-        {
-            m_deletion_queue.keep(std::move(it->second));
-            it = m_objects.erase(it);
-        }
-    }
-    std::erase_if(m_poses, [&](const auto& entry) { return !versions.contains(entry.first); });
-    m_poses_max = 2 * m_poses.size() + 1024;
+    object.pose = std::make_shared<const Pose>(std::move(pose));
+    object.version = ++m_last_version;
 }
 
 void DynamicObjects::makeLayers()
 {
-    if (std::ranges::any_of(presentObjects(), &Object::is_hopeless))
+    if (std::ranges::any_of(m_objects, [](const auto& entry) { return entry.second->is_hopeless; }))
     {
         throw Error(ErrorCode::Memory,
                     "a dynamic object makes more pieces than 32-bit numbers count; lower the resolution");
     }
     std::uint64_t voxelized_count = 0;
-    for (Object* object : presentObjects())
+    for (const auto& [id, object] : m_objects)
     {
         voxelized_count += object->voxelized != object->version ? 1 : 0;
         if (object->voxelized != object->version && object->layer == nullptr)
@@ -289,36 +245,36 @@ void DynamicObjects::makeLayers()
     }
 }
 
-std::vector<DynamicObjectId> DynamicObjects::addStages(std::uint32_t sum_shift, RecordedStages& stages)
+std::vector<DynamicObjectId> DynamicObjects::addStages(std::uint32_t sum_shift, UpdateStages& stages)
 {
     std::vector<DynamicObjectId> voxelized;
-    for (auto& entry : m_objects)
+    for (const auto& [id, each] : m_objects)
     {
-        const DynamicObjectId id = entry.first;
-        Object& object = entry.second;
-        if (!object.present || object.voxelized == object.version)
+        const std::shared_ptr<Object> object = each;
+        if (object->voxelized == object->version)
         {
             continue;
         }
-        const GpuScene& scene = object.mesh->uploaded;
+        const GpuScene& scene = object->mesh->uploaded;
         const std::uint64_t report = m_report_count++;
-        addStage(stages, {"pose a dynamic object", scene.triangle_count},
-                 [&object, pose = m_poses.at(object.version)](vk::FrameGraph& graph, std::uint64_t, std::uint64_t)
-                 { zvo::setPose(graph, object.mesh->deform, *pose, object.buffers); });
-        addLayerStages({.scene = {scene, object.buffers},
+        stages.push_back(wholeStage("pose a dynamic object", scene.triangle_count,
+                                    [object, pose = object->pose](vk::FrameGraph& graph)
+                                    { zvo::setPose(graph, object->mesh->deform, *pose, object->buffers); }));
+        addLayerStages({.scene = {scene, object->buffers},
                         .grid = m_grid,
                         .coverage = m_options.coverage,
                         .sum_shift = sum_shift,
-                        .layer = *object.layer,
+                        .layer = *object->layer,
                         .reports = m_reports,
                         .report = static_cast<std::uint32_t>(report % m_reports.count())},
                        stages);
         // In the frame that writes the report, or one after it.
-        addStage(stages, {"await a report", 1},
-                 [this, &object, id, report](vk::FrameGraph&, std::uint64_t, std::uint64_t) {
-                     m_pending.push_back({m_deletion_queue.frame(), id, report, object.capacities});
-                 });
-        object.voxelized = object.version;
+        stages.push_back(
+            wholeStage("await a report", 1,
+                       [this, object, report](vk::FrameGraph&) {
+                           m_pending.push_back({m_deletion_queue.frame(), object, report, object->capacities});
+                       }));
+        object->voxelized = object->version;
         voxelized.push_back(id);
     }
     return voxelized;
@@ -328,28 +284,30 @@ void DynamicObjects::forgetLayers(std::span<const DynamicObjectId> objects)
 {
     for (const DynamicObjectId id : objects)
     {
-        m_objects.at(id).voxelized = 0;
+        if (const auto found = m_objects.find(id); found != m_objects.end())
+        {
+            found->second->voxelized = 0;
+        }
     }
 }
 
 void DynamicObjects::forgetLayers()
 {
-    for (auto& [id, object] : m_objects)
+    for (const auto& [id, object] : m_objects)
     {
-        object.voxelized = 0;
+        object->voxelized = 0;
     }
 }
 
 // Reads the report of a layer. A layer that failed is dropped, and its capacities grow. Returns whether that happened.
 bool DynamicObjects::learn(const PendingLayer& pending)
 {
-    const auto found = m_objects.find(pending.object);
-    if (found == m_objects.end() || found->second.capacities != pending.capacities)
+    Object& object = *pending.object;
+    if (object.capacities != pending.capacities)
     {
-        return false; // gone, or larger already
+        return false; // larger already
     }
     const gpu::LayerCounters counters = m_reports.mappedData()[pending.report % m_reports.count()];
-    Object& object = found->second;
     object.dropped = counters;
     if (counters.failed == 0)
     {
@@ -385,7 +343,7 @@ void DynamicObjects::frameLost()
 std::map<std::string, std::uint64_t> DynamicObjects::droppedTriangles()
 {
     std::map<std::string, std::uint64_t> dropped;
-    for (const Object* object : presentObjects())
+    for (const auto& [id, object] : m_objects)
     {
         dropped["nonfinite"] += object->dropped.nonfinite;
         dropped["out_of_range"] += object->dropped.out_of_range;

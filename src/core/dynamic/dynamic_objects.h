@@ -6,14 +6,13 @@
 #include "core/overlay/root_history.h"
 #include "core/scene/animation.h"
 #include "core/update/layer.h"
-#include "core/update/update_stage.h"
+#include "core/update/update_budget.h"
 #include "vk/deletion_queue.h"
 #include "vk/device.h"
 #include "vk/frame_list.h"
 #include "vk/uploader.h"
 #include "zvo/types.h"
 
-#include <cstddef>
 #include <cstdint>
 #include <deque>
 #include <map>
@@ -55,8 +54,8 @@ struct DynamicObjectOptions
 };
 
 /// The dynamic objects of an octree. Each has the pose that it is to be in, and a layer: the voxels of the pose in
-/// which it was voxelized last. Poses have version numbers, so that an entry of the history can name the states of its
-/// dynamic objects by numbers. This class knows nothing of merging, nor of what is shown.
+/// which it was voxelized last. An object that was removed, and a pose, live on as long as a LayerState keeps them.
+/// This class knows nothing of merging, nor of what is shown.
 class DynamicObjects final : public vk::FrameParticipant
 {
 public:
@@ -75,7 +74,7 @@ public:
     /// Restores an earlier state: the dynamic objects named in states are present, in those poses; all others are not.
     void bringBack(std::span<const LayerState> states);
 
-    [[nodiscard]] bool isEmpty() const; // no dynamic object is present
+    [[nodiscard]] bool isEmpty() const { return m_objects.empty(); }
     [[nodiscard]] std::vector<LayerState> states() const;
     [[nodiscard]] std::vector<const LayerBuffers*> layers();
     [[nodiscard]] std::uint64_t leafCapacity(); // of all layers
@@ -87,9 +86,10 @@ public:
 
     /// Adds the stages that voxelize the dynamic objects which have changed, and returns these objects. They count as
     /// voxelized from now on. The stages must be recorded before one of the objects is removed.
-    std::vector<DynamicObjectId> addStages(std::uint32_t sum_shift, RecordedStages& stages);
+    std::vector<DynamicObjectId> addStages(std::uint32_t sum_shift, UpdateStages& stages);
 
-    /// Declares the contents of these objects' layers, or of all layers, invalid: the objects are voxelized again.
+    /// Declares the contents of these objects' layers, or of all layers, invalid: those that are present are voxelized
+    /// again.
     void forgetLayers(std::span<const DynamicObjectId> objects);
     void forgetLayers();
 
@@ -105,12 +105,6 @@ public:
     /// Triangles that were left out when the dynamic objects were voxelized last, by reason, summed over all objects.
     [[nodiscard]] std::map<std::string, std::uint64_t> droppedTriangles();
 
-    /// Whether enough poses are kept to make a call of forgetPoses() worth its time.
-    [[nodiscard]] bool hasManyPoses() const { return m_poses.size() >= m_poses_max; }
-
-    /// Drops poses and dynamic objects that are neither present nor named in states.
-    void forgetPoses(std::span<const LayerState> states);
-
 private:
     struct Object
     {
@@ -118,23 +112,28 @@ private:
         DynamicObjectBuffers buffers;
         LayerCapacities capacities;
         std::unique_ptr<LayerBuffers> layer;
-        bool present = true;          // false: removed, but kept while an entry of the history shows it
-        std::uint64_t version = 0;    // of the pose that the object is to be in
-        std::uint64_t voxelized = 0;  // version of the pose in `layer`; 0: none
-        gpu::LayerCounters dropped{}; // counts of the last voxelization
-        bool is_hopeless = false;     // no layer can be large enough
+        std::shared_ptr<const Pose> pose; // that the object is to be in
+        std::uint64_t version = 0;        // of pose
+        std::uint64_t voxelized = 0;      // version of the pose in `layer`; 0: none
+        gpu::LayerCounters dropped{};     // counts of the last voxelization
+        bool is_hopeless = false;         // no layer can be large enough
+    };
+    // What a LayerState keeps.
+    struct Shown
+    {
+        std::shared_ptr<Object> object;
+        std::shared_ptr<const Pose> pose;
     };
     struct PendingLayer
     {
         std::uint64_t frame;
-        DynamicObjectId object;
+        std::shared_ptr<Object> object;
         std::uint64_t report; // number of the report; its element in the ring m_reports is this modulo the ring's size
         LayerCapacities capacities;
     };
 
-    std::uint64_t addPose(Pose pose);
+    void put(Object& object, Pose&& pose);
     [[nodiscard]] Object& presentObject(DynamicObjectId id);
-    [[nodiscard]] std::vector<Object*> presentObjects();
     void dropLayer(Object& object);
     bool learn(const PendingLayer& pending);
 
@@ -142,11 +141,9 @@ private:
     const Grid& m_grid;
     DynamicObjectOptions m_options;
     vk::DeletionQueue& m_deletion_queue;
-    std::map<DynamicObjectId, Object> m_objects;
+    std::map<DynamicObjectId, std::shared_ptr<Object>> m_objects; // that are present
     DynamicObjectId m_next_object = 1;
-    std::uint64_t m_next_version = 1;
-    std::map<std::uint64_t, std::shared_ptr<const Pose>> m_poses; // by version
-    std::size_t m_poses_max = 1024;             // number of poses from which on unused ones are dropped
+    std::uint64_t m_last_version = 0;           // of all poses
     vk::BufferOf<gpu::LayerCounters> m_reports; // host-visible, a ring
     std::uint64_t m_report_count = 0;
     std::deque<PendingLayer> m_pending; // in order of frames

@@ -72,13 +72,11 @@ DynamicOctree::DynamicOctree(vk::Uploader& device, DeviceTree&& fixed, const Dyn
 
 DynamicObjectId DynamicOctree::add(std::shared_ptr<const DynamicMesh> mesh, Pose pose)
 {
-    forgetPoses();
     return m_objects.add(std::move(mesh), std::move(pose));
 }
 
 void DynamicOctree::setPose(DynamicObjectId object, Pose pose)
 {
-    forgetPoses();
     m_objects.setPose(object, std::move(pose));
 }
 
@@ -95,22 +93,6 @@ void DynamicOctree::beginChange()
     m_overlays.renewVersion();
 }
 
-// Now and then, drops the poses and dynamic objects that are not shown and that no entry can bring back.
-void DynamicOctree::forgetPoses()
-{
-    if (!m_objects.hasManyPoses())
-    {
-        return;
-    }
-    std::vector<LayerState> states;
-    m_history.forEachLayer([&](const LayerState& state) { states.push_back(state); });
-    if (m_job != nullptr)
-    {
-        states.insert(states.end(), m_job->states.begin(), m_job->states.end());
-    }
-    m_objects.forgetPoses(states);
-}
-
 RootSlot DynamicOctree::rootOf(const RootEntry& entry) const
 {
     if (entry.pending)
@@ -120,6 +102,15 @@ RootSlot DynamicOctree::rootOf(const RootEntry& entry) const
         return {gpu::kNoNode, pending->result};
     }
     return {entry.region ? entry.region->first_node : editedRoot(), 0};
+}
+
+void DynamicOctree::showOwedRoot(vk::FrameGraph& graph)
+{
+    if (m_owes_root)
+    {
+        showRoot(graph, m_overlays.tree(), m_roots, rootOf(m_history.current()));
+        m_owes_root = false;
+    }
 }
 
 // Makes the buffers of the update as large as its layers and its overlay ask for.
@@ -220,7 +211,7 @@ bool DynamicOctree::updateOrWait(vk::FrameGraph& graph, double budget_ms)
 // Records the stages that fit the budget and, if these are all that is left, the end of the update.
 void DynamicOctree::recordJob(vk::FrameGraph& graph, double budget_ms)
 {
-    std::vector<UpdateSlice> slices = m_budget.plan(m_job->plan, m_job->progress, budget_ms);
+    std::vector<UpdateSlice> slices = m_budget.plan(m_job->stages, m_job->progress, budget_ms);
     for (UpdateSlice& slice : slices)
     {
         slice.first_pass = graph.passCount();
@@ -239,11 +230,7 @@ void DynamicOctree::recordJob(vk::FrameGraph& graph, double budget_ms)
 // for frames.
 bool DynamicOctree::beginJob(vk::FrameGraph& graph)
 {
-    if (m_owes_root)
-    {
-        showRoot(graph, m_overlays.tree(), m_roots, rootOf(m_history.current()));
-        m_owes_root = false;
-    }
+    showOwedRoot(graph);
     m_objects.makeLayers();
     m_sizes.begin(m_objects.leafCapacity());
     prepareBuffers();
@@ -259,7 +246,7 @@ bool DynamicOctree::beginJob(vk::FrameGraph& graph)
     {
         return false;
     }
-    RecordedStages stages;
+    UpdateStages stages;
     std::vector<DynamicObjectId> voxelized = m_objects.addStages(m_sum_shift, stages);
     const auto result = static_cast<std::uint32_t>(m_result_count++ % m_results.count());
     m_job = std::make_unique<Job>(Job{
@@ -278,14 +265,9 @@ bool DynamicOctree::beginJob(vk::FrameGraph& graph)
         .states = m_objects.states(),
         .voxelized = std::move(voxelized),
         .stages = std::move(stages),
-        .plan = {},
         .progress = {},
     });
     addMergeStages(m_job->merge, *m_update, m_job->stages);
-    for (const RecordedStage& stage : m_job->stages)
-    {
-        m_job->plan.push_back(stage.stage);
-    }
     return true;
 }
 
@@ -351,11 +333,7 @@ bool DynamicOctree::show(vk::FrameGraph& graph, HistoryMove move, HistoryMove ba
 bool DynamicOctree::edit(vk::FrameGraph& graph, const Brush& brush)
 {
     beginChange();
-    if (m_owes_root) // before anything is written where a lost frame wrote
-    {
-        showRoot(graph, m_overlays.tree(), m_roots, rootOf(m_history.current()));
-        m_owes_root = false;
-    }
+    showOwedRoot(graph); // before anything is written where a lost frame wrote
     const std::uint64_t before = m_edits.changeCount();
     const bool is_done = m_edits.dab(graph, brush, m_tables.view);
     if (m_edits.changeCount() != before)

@@ -35,8 +35,8 @@ struct DynamicOptions
     MergeRule merge = DynamicTreeInfo().merge;
     /// Frames that may be recorded before frameDone() of the first one.
     std::uint32_t frames_in_flight = DynamicTreeInfo().frames_in_flight;
-    HistoryBounds history = {};
-    EditBounds edits = {};
+    HistoryBounds history = {DynamicTreeInfo().history_entries, DynamicTreeInfo().history_bytes};
+    HistoryBounds edits = {DynamicTreeInfo().strokes, DynamicTreeInfo().edit_bytes}; // of strokes
     float emission_scale = DynamicTreeInfo().emission_scale;
     bool attributes = true;          // whether dynamic objects get attributes; used where the static tree is empty
     bool minimal_capacities = false; // for tests: every buffer starts with room for one element
@@ -199,8 +199,7 @@ private:
         UpdateJob merge;
         std::vector<LayerState> states;         // of the dynamic objects that the update shows
         std::vector<DynamicObjectId> voxelized; // by this update
-        RecordedStages stages;
-        std::vector<UpdateStage> plan; // the same stages, as UpdateBudget takes them
+        UpdateStages stages;
         UpdateProgress progress;
     };
     struct PendingSlices
@@ -212,10 +211,10 @@ private:
     using HistoryMove = std::optional<RootEntry> (RootHistory::*)();
 
     void beginChange();
-    void forgetPoses();
     bool updateOrWait(vk::FrameGraph& graph, double budget_ms);
     bool beginJob(vk::FrameGraph& graph);
     void prepareBuffers();
+    void showOwedRoot(vk::FrameGraph& graph);
     std::optional<OverlayRegion> allocateRegion(vk::FrameGraph& graph);
     void recordJob(vk::FrameGraph& graph, double budget_ms);
     void finishJob(vk::FrameGraph& graph);

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "zvo/dynamic_tree.h"
-
 #include <cstddef>
 #include <cstdint>
 #include <deque>
@@ -10,13 +8,6 @@
 
 namespace zvo
 {
-
-/// Bounds of what is kept of edits.
-struct EditBounds
-{
-    std::size_t entries_max = DynamicTreeInfo().strokes;    // at least 1
-    std::uint64_t bytes_max = DynamicTreeInfo().edit_bytes; // exceeded only where a single entry needs more
-};
 
 /// Dabs that may be recorded in a frame. As many slots are kept free for them.
 inline constexpr std::uint32_t kDabsPerFrameMax = 32;

@@ -32,7 +32,7 @@ OverlayRegion regionOf(std::uint64_t nodes, std::uint64_t voxels)
 
 } // namespace
 
-Edits::Edits(vk::Device& device, OverlayBuffers& overlays, RootHistory& regions, const EditBounds& bounds,
+Edits::Edits(vk::Device& device, OverlayBuffers& overlays, RootHistory& regions, const HistoryBounds& bounds,
              std::uint32_t frames_in_flight, vk::DeletionQueue& deletion_queue)
     : m_device(device), m_overlays(overlays), m_regions(regions), m_deletion_queue(deletion_queue),
       m_bytes_max(bounds.bytes_max), m_now{.history = EditHistory(bounds.entries_max)},

@@ -26,9 +26,10 @@ namespace zvo
 class Edits final : public vk::FrameParticipant
 {
 public:
-    /// Regions that frames in flight may still use are given back through `regions`, other objects are put into
+    /// bounds: of the strokes that are kept, and of the bytes that they hold, exceeded only where a single stroke needs
+    /// more. Regions that frames in flight may still use are given back through `regions`, other objects are put into
     /// deletion_queue. All references must outlive this object.
-    Edits(vk::Device& device, OverlayBuffers& overlays, RootHistory& regions, const EditBounds& bounds,
+    Edits(vk::Device& device, OverlayBuffers& overlays, RootHistory& regions, const HistoryBounds& bounds,
           std::uint32_t frames_in_flight, vk::DeletionQueue& deletion_queue);
 
     /// Records a dab of the stroke that is under way, or of a new one. Returns false, and records no dab, while it is

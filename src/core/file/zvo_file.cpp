@@ -10,6 +10,7 @@
 #include <cstdio>
 #include <cstring>
 #include <fmt/format.h>
+#include <iterator>
 #include <memory>
 
 namespace zvo
@@ -79,28 +80,16 @@ bool hasZvoName(const std::filesystem::path& path)
 
 std::string sectionName(std::uint32_t id)
 {
-    switch (static_cast<ZvoSectionId>(id))
-    {
-    case ZvoSectionId::Levels:
-        return "levels";
-    case ZvoSectionId::Nodes:
-        return "nodes";
-    case ZvoSectionId::Lists:
-        return "lists";
-    case ZvoSectionId::Before:
-        return "counts beside long lists";
-    case ZvoSectionId::VoxelsBeforeLeaf:
-        return "counts beside lists of leaves";
-    case ZvoSectionId::VoxelAttributes:
-        return "attributes of voxels";
-    case ZvoSectionId::NodeAttributes:
-        return "attributes of nodes";
-    case ZvoSectionId::EmissionWords:
-        return "words of the emission table";
-    case ZvoSectionId::Emission:
-        return "emissions";
-    }
-    return fmt::format("section {}", id);
+    constexpr const char* kNames[] = {"levels", // ZvoSectionId::Levels and those behind it
+                                      "nodes",
+                                      "lists",
+                                      "counts beside long lists",
+                                      "counts beside lists of leaves",
+                                      "attributes of voxels",
+                                      "attributes of nodes",
+                                      "words of the emission table",
+                                      "emissions"};
+    return id != 0 && id <= std::size(kNames) ? kNames[id - 1] : fmt::format("section {}", id);
 }
 
 std::uint64_t headerChecksum(const ZvoHeader& header)

@@ -39,29 +39,26 @@ public:
             checkOffset(section);
             readSection(section);
         }
-        if (m_end != m_file.header.file_bytes)
-        {
-            fail(fmt::format("the last section ends at byte {} of {}; {}", m_end, m_file.header.file_bytes,
-                             kExportAgain));
-        }
+        failUnless(m_end == m_file.header.file_bytes, "the last section ends at byte {} of {}", m_end,
+                   m_file.header.file_bytes);
         requireSections();
-        if (const std::optional<std::string> fault = checkTree(m_file.tree))
-        {
-            fail(fmt::format("{}; {}", *fault, kExportAgain));
-        }
+        requireNone(checkTree(m_file.tree));
         return std::move(m_file);
     }
 
 private:
     [[noreturn]] void fail(const std::string& what) const { throw inputError(m_path, what); }
 
-    void failUnless(bool condition, const char* what) const
+    template <typename... Arguments>
+    void failUnless(bool condition, fmt::format_string<Arguments...> fault, Arguments&&... arguments) const
     {
         if (!condition)
         {
-            fail(fmt::format("{}; {}", what, kExportAgain));
+            fail(fmt::format("{}; {}", fmt::format(fault, std::forward<Arguments>(arguments)...), kExportAgain));
         }
     }
+
+    void requireNone(const std::optional<std::string>& fault) const { failUnless(!fault, "{}", fault.value_or("")); }
 
     void readHeader()
     {
@@ -82,8 +79,8 @@ private:
         if (header.byte_order != kZvoByteOrder)
         {
             const bool swapped = header.byte_order == __builtin_bswap32(kZvoByteOrder);
-            fail(swapped ? "its numbers are big-endian, those of .zvo files are little-endian; convert it again"
-                         : fmt::format("its byte order is unknown ({:#010x}); {}", header.byte_order, kExportAgain));
+            failUnless(swapped, "its byte order is unknown ({:#010x})", header.byte_order);
+            fail("its numbers are big-endian, those of .zvo files are little-endian; convert it again");
         }
         if (header.version_major != kZvoVersionMajor)
         {
@@ -105,10 +102,7 @@ private:
         {
             fail(fmt::format("{} bytes of {} are there; {}", size, header.file_bytes, kCutShort));
         }
-        if (header.file_bytes < size)
-        {
-            fail(fmt::format("{} bytes follow its end; {}", size - header.file_bytes, kExportAgain));
-        }
+        failUnless(header.file_bytes == size, "{} bytes follow its end", size - header.file_bytes);
         if (header.structure != static_cast<std::uint32_t>(TreeStructure::Svo) &&
             header.structure != static_cast<std::uint32_t>(TreeStructure::Svdag))
         {
@@ -127,11 +121,7 @@ private:
             }
         }
         failUnless(header.long_entry_count <= header.entry_count, "more list entries are long than there are");
-        const Grid grid = gridOf(header);
-        if (const std::optional<std::string> fault = checkGrid(grid))
-        {
-            fail(fmt::format("{}; {}", *fault, kExportAgain));
-        }
+        requireNone(checkGrid(gridOf(header)));
     }
 
     static Grid gridOf(const ZvoHeader& header)
@@ -143,11 +133,8 @@ private:
     {
         const ZvoHeader& header = m_file.header;
         const std::uint64_t table_bytes = std::uint64_t{header.section_count} * sizeof(ZvoSection);
-        if (header.section_count > kZvoSectionsMax)
-        {
-            fail(fmt::format("{} sections are more than the {} that are possible; {}", header.section_count,
-                             kZvoSectionsMax, kExportAgain));
-        }
+        failUnless(header.section_count <= kZvoSectionsMax, "{} sections are more than the {} that are possible",
+                   header.section_count, kZvoSectionsMax);
         failUnless(table_bytes <= header.file_bytes - sizeof(header), "the section table does not fit into the file");
         m_file.sections.resize(header.section_count);
         m_source.read(sizeof(header), std::as_writable_bytes(std::span(m_file.sections)));
@@ -157,11 +144,7 @@ private:
         std::uint32_t last_id = 0;
         for (const ZvoSection& section : m_file.sections)
         {
-            if (section.id <= last_id)
-            {
-                fail(fmt::format("{} stands behind {}; {}", sectionName(section.id), sectionName(last_id),
-                                 kExportAgain));
-            }
+            failUnless(section.id > last_id, "{} stands behind {}", sectionName(section.id), sectionName(last_id));
             last_id = section.id;
         }
     }
@@ -171,23 +154,16 @@ private:
     {
         const std::string name = sectionName(section.id);
         const std::uint64_t offset = zvoAligned(m_end);
-        if (section.offset != offset)
-        {
-            fail(fmt::format("{} starts at byte {}, not at {}; {}", name, section.offset, offset, kExportAgain));
-        }
+        failUnless(section.offset == offset, "{} starts at byte {}, not at {}", name, section.offset, offset);
         const std::uint64_t file_bytes = m_file.header.file_bytes;
-        if (section.bytes == 0 || offset > file_bytes || section.bytes > file_bytes - offset)
-        {
-            fail(fmt::format("{} of {} bytes at byte {} does not fit into the file's {}; {}", name, section.bytes,
-                             offset, file_bytes, kExportAgain));
-        }
+        failUnless(section.bytes != 0 && offset <= file_bytes && section.bytes <= file_bytes - offset,
+                   "{} of {} bytes at byte {} does not fit into the file's {}", name, section.bytes, offset,
+                   file_bytes);
         std::array<std::byte, kZvoAlignment> padding{};
         const std::span<std::byte> between = std::span(padding).first(offset - m_end);
         m_source.read(m_end, between);
-        if (std::any_of(between.begin(), between.end(), [](std::byte byte) { return byte != std::byte{0}; }))
-        {
-            fail(fmt::format("there is something between the sections before {}; {}", name, kExportAgain));
-        }
+        failUnless(std::ranges::count(between, std::byte{0}) == std::ssize(between),
+                   "there is something between the sections before {}", name);
         m_end = offset + section.bytes;
     }
 
@@ -254,10 +230,7 @@ private:
 
     void checkSum(const ZvoSection& section, std::uint64_t checksum) const
     {
-        if (checksum != section.checksum)
-        {
-            fail(fmt::format("{} do not match their checksum; {}", sectionName(section.id), kExportAgain));
-        }
+        failUnless(checksum == section.checksum, "{} do not match their checksum", sectionName(section.id));
     }
 
     void readVoxelAttributes(const ZvoSection& section)
@@ -284,11 +257,8 @@ private:
         const ZvoFormat format = zvoFormat(nodeFormat(tree.packed.format));
         const bool is_known = section.format >= static_cast<std::uint32_t>(ZvoFormat::Plain) &&
                               section.format <= static_cast<std::uint32_t>(ZvoFormat::Blocks);
-        if (is_known && section.format != static_cast<std::uint32_t>(format))
-        {
-            fail(fmt::format("attributes of nodes have format {}, which does not go with that of voxels; {}",
-                             section.format, kExportAgain));
-        }
+        failUnless(!is_known || section.format == static_cast<std::uint32_t>(format),
+                   "attributes of nodes have format {}, which does not go with that of voxels", section.format);
         const std::uint64_t count = m_file.header.octree_node_count;
         format == ZvoFormat::Plain ? readArray(section, tree.node_attributes, count)
                                    : readArray(section, tree.packed.nodes, count, format);
@@ -304,21 +274,12 @@ private:
             fail(fmt::format("{} have format {}, unknown to this version; use a newer zvo", name, section.format));
         }
         const bool is_newer = m_file.header.version_minor > kZvoVersionMinor;
-        if (!is_newer && (section.reserved != 0 || section.flags != kZvoMustUnderstand))
-        {
-            fail(fmt::format("flags or reserved bytes of {} are wrong; {}", name, kExportAgain));
-        }
-        if (section.count != count)
-        {
-            fail(fmt::format("there are {} {} where the header asks for {}; {}", section.count, name, count,
-                             kExportAgain));
-        }
+        failUnless(is_newer || (section.reserved == 0 && section.flags == kZvoMustUnderstand),
+                   "flags or reserved bytes of {} are wrong", name);
+        failUnless(section.count == count, "there are {} {} where the header asks for {}", section.count, name, count);
         const std::uint64_t element_bytes = valuesPerElement(format) * sizeof(T);
-        if (section.bytes / element_bytes != count || section.bytes % element_bytes != 0)
-        {
-            fail(fmt::format("{} {} take {} bytes, not {}; {}", count, name, section.bytes, element_bytes,
-                             kExportAgain));
-        }
+        failUnless(section.bytes / element_bytes == count && section.bytes % element_bytes == 0,
+                   "{} {} take {} bytes, not {}", count, name, section.bytes, element_bytes);
         target.resize(count * valuesPerElement(format)); // no more than the file has
         m_source.read(section.offset, std::as_writable_bytes(std::span(target)));
         checkSum(section, crc64(std::as_bytes(std::span(target))));
@@ -331,11 +292,8 @@ private:
         std::uint64_t first_node = 0;
         for (const std::uint64_t count : counts)
         {
-            if (count > m_file.header.node_count - first_node)
-            {
-                fail(fmt::format("the levels have more nodes than the {} that there are; {}", m_file.header.node_count,
-                                 kExportAgain));
-            }
+            failUnless(count <= m_file.header.node_count - first_node,
+                       "the levels have more nodes than the {} that there are", m_file.header.node_count);
             m_file.tree.levels.push_back({static_cast<std::uint32_t>(first_node), static_cast<std::uint32_t>(count)});
             first_node += count;
         }
@@ -348,10 +306,8 @@ private:
         std::vector<std::uint64_t> words;
         readArray(section, words, packing.wordCount());
         m_file.tree.lists = unpackEntries(words, packing.entry_count, packing.per_word);
-        if (packEntries(m_file.tree.lists, packing.per_word) != words)
-        {
-            fail(fmt::format("there is something between the entries of lists; {}", kExportAgain));
-        }
+        failUnless(packEntries(m_file.tree.lists, packing.per_word) == words,
+                   "there is something between the entries of lists");
     }
 
     // Counts of the header whose sections are missing. What else belongs together, checkTree knows.
@@ -360,12 +316,7 @@ private:
         const ZvoHeader& header = m_file.header;
         const TreeData& tree = m_file.tree;
         const auto require = [this](ZvoSectionId id, std::size_t have, std::uint64_t wanted)
-        {
-            if (have != wanted)
-            {
-                fail(fmt::format("{} are missing; {}", sectionName(static_cast<std::uint32_t>(id)), kExportAgain));
-            }
-        };
+        { failUnless(have == wanted, "{} are missing", sectionName(static_cast<std::uint32_t>(id))); };
         require(ZvoSectionId::Nodes, tree.nodes.size(), header.node_count);
         require(ZvoSectionId::Lists, tree.lists.size(), header.entry_count);
     }

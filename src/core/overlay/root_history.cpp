@@ -13,7 +13,7 @@ namespace zvo
 RootHistory::RootHistory(OverlayArena& arena, const HistoryBounds& bounds) : m_arena(arena), m_bounds(bounds)
 {
     assert(bounds.entries_max > 0);
-    m_entries.push_back(std::make_shared<Entry>());
+    m_entries.push_back(makeEntry({}));
 }
 
 RootHistory::~RootHistory()
@@ -22,6 +22,19 @@ RootHistory::~RootHistory()
     m_entries.clear();
     m_entries_before.clear();
     frameDone(m_frame);
+}
+
+RootHistory::SharedEntry RootHistory::makeEntry(RootEntry&& entry)
+{
+    const auto drop = [this](RootEntry* dropped)
+    {
+        if (dropped->region)
+        {
+            giveBack(*dropped->region);
+        }
+        delete dropped;
+    };
+    return {new RootEntry(std::move(entry)), drop};
 }
 
 // Keeps the line as it is before its first change in a frame, for frameLost().
@@ -64,7 +77,7 @@ std::optional<OverlayRegion> RootHistory::allocate(std::uint64_t nodes, std::uin
     std::size_t first = 1;
     while (!later.allocate(nodes, voxels))
     {
-        const Entry* entry = nullptr;
+        const RootEntry* entry = nullptr;
         if (end - 1 > m_current)
         {
             entry = m_entries[--end].get();
@@ -77,9 +90,9 @@ std::optional<OverlayRegion> RootHistory::allocate(std::uint64_t nodes, std::uin
         {
             return std::nullopt;
         }
-        if (entry->lease)
+        if (entry->region)
         {
-            later.release(entry->lease->region);
+            later.release(*entry->region);
         }
     }
     keepEntries();
@@ -103,16 +116,12 @@ OverlayArena RootHistory::arenaLater() const
     {
         later.release(waiting.region);
     }
-    std::set<const Entry*> seen;
-    for (const auto& entry : m_entries)
+    std::set<SharedEntry> seen(m_entries.begin(), m_entries.end());
+    const auto release = [&](const SharedEntry& entry)
     {
-        seen.insert(entry.get());
-    }
-    const auto release = [&](const std::shared_ptr<Entry>& entry)
-    {
-        if (seen.insert(entry.get()).second && entry->lease)
+        if (seen.insert(entry).second && entry->region)
         {
-            later.release(entry->lease->region);
+            later.release(*entry->region);
         }
     };
     for (const Update& update : m_updates)
@@ -138,13 +147,9 @@ void RootHistory::giveBack(const OverlayRegion& region)
 
 std::uint64_t RootHistory::push(const std::optional<OverlayRegion>& region, std::vector<LayerState> layers)
 {
-    const auto entry = std::make_shared<Entry>();
-    entry->id = ++m_last_id;
-    entry->layers = std::move(layers);
+    const SharedEntry entry = makeEntry({++m_last_id, region, std::move(layers), region.has_value()});
     if (region)
     {
-        entry->lease.emplace(*this, *region);
-        entry->pending = true;
         m_updates.push_back({entry, m_entries[m_current], m_frame});
     }
     keepEntries();
@@ -169,8 +174,8 @@ RootHistory::Update RootHistory::endUpdate([[maybe_unused]] std::uint64_t id)
 void RootHistory::complete(std::uint64_t id, std::uint32_t nodes, std::uint32_t voxels)
 {
     const Update update = endUpdate(id);
-    OverlayRegion& region = update.entry->lease->region;
-    region = m_arena.shrink(region, nodes, voxels);
+    std::optional<OverlayRegion>& region = update.entry->region;
+    region = m_arena.shrink(*region, nodes, voxels);
 }
 
 void RootHistory::fail(std::uint64_t id)
@@ -211,12 +216,12 @@ std::optional<std::size_t> RootHistory::removeFailed(Entries& entries, const Upd
 
 std::optional<RootEntry> RootHistory::undo()
 {
-    return undoCount() == 0 ? std::nullopt : std::optional(describe(--m_current));
+    return undoCount() == 0 ? std::nullopt : std::optional(*m_entries[--m_current]);
 }
 
 std::optional<RootEntry> RootHistory::redo()
 {
-    return redoCount() == 0 ? std::nullopt : std::optional(describe(++m_current));
+    return redoCount() == 0 ? std::nullopt : std::optional(*m_entries[++m_current]);
 }
 
 void RootHistory::forget()
@@ -241,7 +246,7 @@ std::uint64_t RootHistory::entryBytes() const
     std::uint64_t bytes = 0;
     for (const auto& entry : m_entries)
     {
-        bytes += entry->lease ? m_arena.bytes(entry->lease->region) : 0;
+        bytes += entry->region ? m_arena.bytes(*entry->region) : 0;
     }
     return bytes;
 }
@@ -249,12 +254,6 @@ std::uint64_t RootHistory::entryBytes() const
 std::uint64_t RootHistory::waitingBytes() const
 {
     return m_arena.heldBytes() - arenaLater().heldBytes();
-}
-
-RootEntry RootHistory::describe(std::size_t index) const
-{
-    const Entry& entry = *m_entries[index];
-    return {entry.id, entry.lease ? std::optional(entry.lease->region) : std::nullopt, entry.layers, entry.pending};
 }
 
 bool RootHistory::dropEntry()

@@ -3,15 +3,12 @@
 
 #include "core/overlay/overlay_arena.h"
 #include "vk/frame_list.h"
-#include "zvo/dynamic_tree.h"
 
-#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <deque>
 #include <memory>
 #include <optional>
-#include <span>
 #include <vector>
 
 namespace zvo
@@ -22,15 +19,16 @@ struct LayerState
 {
     std::uint32_t layer = 0;
     std::uint64_t version = 0;
+    std::shared_ptr<const void> kept = nullptr; // whatever it takes to show the state again
 
-    bool operator==(const LayerState&) const = default;
+    bool operator==(const LayerState& other) const { return layer == other.layer && version == other.version; }
 };
 
-/// Bounds of what a RootHistory keeps.
+/// Bounds of what a history keeps.
 struct HistoryBounds
 {
-    std::size_t entries_max = DynamicTreeInfo().history_entries; // entries besides the first one, at least 1
-    std::uint64_t bytes_max = DynamicTreeInfo().history_bytes;   // of the entries' regions
+    std::size_t entries_max = 1;          // entries besides the first one, at least 1
+    std::uint64_t bytes_max = UINT64_MAX; // of device memory that the entries hold
 };
 
 /// An entry of a RootHistory: an octree or a DAG that can be traced.
@@ -38,7 +36,7 @@ struct RootEntry
 {
     std::uint64_t id = 0;                // grows from push to push; 0: the first entry
     std::optional<OverlayRegion> region; // of its overlay; nothing: the static tree
-    std::span<const LayerState> layers;  // as pushed; valid until the history changes
+    std::vector<LayerState> layers;      // as pushed
     bool pending = false;                // it is not known yet whether the entry's update succeeded
 };
 
@@ -66,6 +64,8 @@ struct RootEntry
 /// or are kept for pending entries, do not count towards bytes_max; waitingBytes() tells their size.
 ///
 /// undo(), redo() and current() take constant time, everything else at most n log n for n entries.
+/// Layer states, with what they keep, live as long as current(), undo() or redo() may return them, also after fail() or
+/// frameLost(), and until their own update has ended.
 class RootHistory final : public vk::FrameParticipant
 {
 public:
@@ -103,7 +103,7 @@ public:
     /// where that is still in the line, the failed entry is just removed; where it had been dropped, it comes back.
     void fail(std::uint64_t id);
 
-    [[nodiscard]] RootEntry current() const { return describe(m_current); }
+    [[nodiscard]] const RootEntry& current() const { return *m_entries[m_current]; }
 
     /// Make the previous or next entry the current one and return it; nothing at the ends.
     std::optional<RootEntry> undo();
@@ -124,53 +124,18 @@ public:
     /// The caller sees to it that the root slot shows current() before such a region is used again.
     void frameLost() override;
 
-    /// Calls see for every layer state that current(), undo() and redo() may still return, in any order, for some of
-    /// them twice: the states of all entries, of fallbacks of pending entries, and of entries that are kept for
-    /// frameLost().
-    template <typename See> void forEachLayer(const See& see) const
-    {
-        for (const auto& entry : m_entries)
-        {
-            std::ranges::for_each(entry->layers, see);
-        }
-        for (const Update& update : m_updates)
-        {
-            std::ranges::for_each(update.fallback->layers, see);
-        }
-        for (const auto& entry : m_entries_before)
-        {
-            std::ranges::for_each(entry->layers, see);
-        }
-    }
-
     [[nodiscard]] std::uint64_t entryBytes() const;   // of the entries' regions
     [[nodiscard]] std::uint64_t waitingBytes() const; // of other regions that are held
 
 private:
-    // Owns a region. Its destructor gives the region back, which then waits for the frames in flight.
-    struct Lease
-    {
-        Lease(RootHistory& h, const OverlayRegion& r) : history(h), region(r) {}
-        ~Lease() { history.giveBack(region); }
-        Lease(const Lease&) = delete;
-        Lease& operator=(const Lease&) = delete;
-
-        RootHistory& history;
-        OverlayRegion region;
-    };
-    // Shared by the line, by the update that makes the entry, and by updates whose fallback it is.
-    struct Entry
-    {
-        std::uint64_t id = 0;
-        std::optional<Lease> lease; // empty: the static tree
-        std::vector<LayerState> layers;
-        bool pending = false;
-    };
-    using Entries = std::deque<std::shared_ptr<Entry>>;
+    // Shared by the line, by the update that makes the entry, and by updates whose fallback it is. With the entry its
+    // region goes, which then waits for the frames in flight.
+    using SharedEntry = std::shared_ptr<RootEntry>;
+    using Entries = std::deque<SharedEntry>;
     struct Update
     {
-        std::shared_ptr<Entry> entry;
-        std::shared_ptr<Entry> fallback; // the entry that it followed
+        SharedEntry entry;
+        SharedEntry fallback; // the entry that it followed
         std::uint64_t frame;
     };
     struct Waiting
@@ -179,7 +144,7 @@ private:
         OverlayRegion region;
     };
 
-    [[nodiscard]] RootEntry describe(std::size_t index) const;
+    [[nodiscard]] SharedEntry makeEntry(RootEntry&& entry);
     [[nodiscard]] OverlayArena arenaLater() const;
     static std::optional<std::size_t> removeFailed(Entries& entries, const Update& update);
     void keepEntries();

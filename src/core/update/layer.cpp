@@ -113,7 +113,7 @@ void listLeaves(vk::FrameGraph& graph, const LayerJob& job)
 }
 
 // Adds a walk over the triangles: for each material class, the chunks of small ones in pieces, then the big ones.
-void addWalk(const LayerJob& job, const char* name, RasterMode mode, RecordedStages& stages)
+void addWalk(const LayerJob& job, const char* name, RasterMode mode, UpdateStages& stages)
 {
     for (const MaterialClass material_class : kMaterialClasses)
     {
@@ -129,39 +129,38 @@ void addWalk(const LayerJob& job, const char* name, RasterMode mode, RecordedSta
                                         job.sum_shift};
             record(RasterWalk{{job.scene, job.grid, job.coverage, layer.voxelize}, mode, &sums});
         };
-        addStage(
-            stages, {name, group_count, true},
-            [=](vk::FrameGraph& graph, std::uint64_t first, std::uint64_t count)
-            { withWalk([&](const RasterWalk& walk) { walkTriangles(graph, walk, material_class, first, count); }); });
-        addStage(stages, {fmt::format("{}, large triangles", name), group_count},
-                 [=](vk::FrameGraph& graph, std::uint64_t, std::uint64_t)
-                 {
-                     withWalk(
-                         [&](const RasterWalk& walk)
-                         {
-                             listRows(graph, walk, material_class);
-                             walkRows(graph, walk, material_class);
-                         });
-                 });
+        stages.push_back(
+            {name, group_count, true, [=](vk::FrameGraph& graph, std::uint64_t first, std::uint64_t count) {
+                 withWalk([&](const RasterWalk& walk) { walkTriangles(graph, walk, material_class, first, count); });
+             }});
+        stages.push_back(wholeStage(fmt::format("{}, large triangles", name), group_count,
+                                    [=](vk::FrameGraph& graph)
+                                    {
+                                        withWalk(
+                                            [&](const RasterWalk& walk)
+                                            {
+                                                listRows(graph, walk, material_class);
+                                                walkRows(graph, walk, material_class);
+                                            });
+                                    }));
     }
 }
 
 } // namespace
 
-void addLayerStages(const LayerJob& job, RecordedStages& stages)
+void addLayerStages(const LayerJob& job, UpdateStages& stages)
 {
+    const auto add = [&](const char* name, std::uint64_t units, const auto& record)
+    { stages.push_back(wholeStage(name, units, record)); };
     const std::uint64_t capacity = job.layer.voxelize.brickCapacity();
-    addStage(stages, {"clear a layer", capacity},
-             [job](vk::FrameGraph& graph, std::uint64_t, std::uint64_t) { clearCoverage(graph, job.layer.voxelize); });
+    add("clear a layer", capacity, [job](vk::FrameGraph& graph) { clearCoverage(graph, job.layer.voxelize); });
     addWalk(job, "cover voxels", RasterMode::Coverage, stages);
-    addStage(stages, {"list leaves", capacity},
-             [job](vk::FrameGraph& graph, std::uint64_t, std::uint64_t) { listLeaves(graph, job); });
+    add("list leaves", capacity, [job](vk::FrameGraph& graph) { listLeaves(graph, job); });
     if (job.layer.sums.count() == 0)
     {
         return;
     }
-    addStage(stages, {"clear sums", job.layer.sums.count()},
-             [job](vk::FrameGraph& graph, std::uint64_t, std::uint64_t) { clearSums(graph, job.layer); });
+    add("clear sums", job.layer.sums.count(), [job](vk::FrameGraph& graph) { clearSums(graph, job.layer); });
     addWalk(job, "add colours and normals", RasterMode::Attributes, stages);
     if (job.layer.emission_words.count() != 0)
     {

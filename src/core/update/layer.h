@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/base/grid.h"
-#include "core/update/update_stage.h"
+#include "core/update/update_budget.h"
 #include "core/upload/gpu_scene.h"
 #include "core/voxelize/voxelize.h"
 #include "update/update.h"
@@ -68,6 +68,6 @@ struct LayerJob
 /// attributes. Nothing is read back; what does not fit is counted, and the layer is marked as failed. Everything that
 /// job refers to must outlive the stages. Cost: triangles plus fragments, and the layer's capacities once, for clearing
 /// them.
-void addLayerStages(const LayerJob& job, RecordedStages& stages);
+void addLayerStages(const LayerJob& job, UpdateStages& stages);
 
 } // namespace zvo

@@ -13,6 +13,10 @@ namespace zvo
 namespace
 {
 
+static_assert(static_cast<gpu::uint>(MergeRule::Average) == gpu::kMergeAverage);
+static_assert(static_cast<gpu::uint>(MergeRule::DynamicWins) == gpu::kMergeDynamic);
+static_assert(static_cast<gpu::uint>(MergeRule::StaticWins) == gpu::kMergeStatic);
+
 // The most touched nodes of a level, of so many in all. level 0: the root.
 std::uint32_t levelCapacity(std::uint64_t touched, std::uint32_t level)
 {
@@ -330,14 +334,10 @@ std::uint64_t UpdateBuffers::bytes(const UpdateCapacities& capacities, const Gri
            capacities.records * sizeof(gpu::LayerLink) + capacities.overlay_nodes * sizeof(gpu::uint);
 }
 
-void addMergeStages(const UpdateJob& job, UpdateBuffers& buffers, RecordedStages& stages)
+void addMergeStages(const UpdateJob& job, UpdateBuffers& buffers, UpdateStages& stages)
 {
     const std::uint64_t records = buffers.links.count();
-    const auto add = [&](const char* name, const std::function<void(vk::FrameGraph&)>& record)
-    {
-        addStage(stages, {name, records},
-                 [record](vk::FrameGraph& graph, std::uint64_t, std::uint64_t) { record(graph); });
-    };
+    const auto add = [&](const char* name, const auto& record) { stages.push_back(wholeStage(name, records, record)); };
     add("list touched nodes",
         [&job, &buffers](vk::FrameGraph& graph)
         {

@@ -5,9 +5,9 @@
 #include "core/overlay/overlay_arena.h"
 #include "core/tree/device_tree.h"
 #include "core/update/layer.h"
-#include "core/update/merge_rule.h"
 #include "update/update.h"
 #include "vk/frame_graph.h"
+#include "zvo/types.h"
 
 #include <cstdint>
 #include <vector>
@@ -76,7 +76,7 @@ struct UpdateJob
 /// Adds the stages that merge layers with the base tree: all paths of the base tree to leaves that a layer has are
 /// copied to the region, and merged with the layers there. Nothing is shown yet, and nothing is read back. job and
 /// everything that it refers to must outlive the stages. Cost: touched nodes and their children.
-void addMergeStages(const UpdateJob& job, UpdateBuffers& buffers, RecordedStages& stages);
+void addMergeStages(const UpdateJob& job, UpdateBuffers& buffers, UpdateStages& stages);
 
 /// Records the pass that ends a merge. nodes[0] becomes the overlay's root, or the root `last` if something had no
 /// room, and roots[slot] its number. results[slot] receives the result of the update.

@@ -114,7 +114,7 @@ void UpdateBudget::learn(std::span<const UpdateSlice> slices, std::span<const vk
 double UpdateBudget::predictMs(const UpdateStage& stage, std::uint64_t units) const
 {
     const auto rate = m_ms_per_unit.find(stage.name);
-    return static_cast<double>(units) * (rate != m_ms_per_unit.end() ? rate->second : stage.guess_ms_per_unit);
+    return static_cast<double>(units) * (rate != m_ms_per_unit.end() ? rate->second : kGuessMsPerUnit);
 }
 
 } // namespace zvo

@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "vk/frame_graph.h"
 #include "vk/timer.h"
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace zvo
@@ -16,15 +19,21 @@ namespace zvo
 /// A stage of an update. It is recorded at once, or in several slices if it is divisible.
 struct UpdateStage
 {
-    /// The guess for work that was not measured: a workgroup of 64 threads takes 10 us. A stage may bring a better
-    /// guess.
-    static constexpr double kGuessMsPerUnit = 1e-2 / 64;
-
     std::string name;        // kind of work: stages of one name are assumed to cost the same per unit
     std::uint64_t units = 1; // what the cost is proportional to, such as triangles; 0: nothing to do
     bool divisible = false;  // may be cut between any two units
-    double guess_ms_per_unit = kGuessMsPerUnit;
+    /// Records some of the units into a frame.
+    std::function<void(vk::FrameGraph&, std::uint64_t first_unit, std::uint64_t unit_count)> record = {};
 };
+
+using UpdateStages = std::vector<UpdateStage>;
+
+/// A stage that is not divisible.
+inline UpdateStage wholeStage(std::string name, std::uint64_t units, std::function<void(vk::FrameGraph&)> record)
+{
+    return {std::move(name), units, false,
+            [record = std::move(record)](vk::FrameGraph& graph, std::uint64_t, std::uint64_t) { record(graph); }};
+}
 
 /// How far an update has come: the next stage, and the first of its units that is not recorded yet. At the end of an
 /// update: the number of stages, and 0.
@@ -58,7 +67,7 @@ struct UpdateSlice
 /// The predicted time of a stage is its number of units times the time of a unit of its kind. When a measured time is
 /// higher than the prediction, the prediction rises to it at once, so that a frame that took too long is followed by
 /// shorter ones. When it is lower, the prediction falls by kFall of the difference, so that one lucky frame does not
-/// make the next one too long. A stage that was never measured counts with its guess.
+/// make the next one too long. A unit of a kind that was never measured counts with kGuessMsPerUnit.
 ///
 /// A frame takes stages in order as long as the sum of their predicted times is within the budget. It takes at least
 /// one stage or, of a divisible stage, at least the kParts-th part of all its units; so an update takes at most kParts
@@ -68,6 +77,7 @@ struct UpdateSlice
 class UpdateBudget
 {
 public:
+    static constexpr double kGuessMsPerUnit = 1e-2 / 64; // a workgroup of 64 threads takes 10 us
     static constexpr double kFall = 0.25;
     static constexpr std::uint64_t kParts = 256;
     static constexpr double kCaution = 8;

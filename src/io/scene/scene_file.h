@@ -6,7 +6,7 @@
 #include "core/scene/animation.h"
 #include "core/scene/camera.h"
 #include "core/scene/motion.h"
-#include "core/update/merge_rule.h"
+#include "zvo/types.h"
 #include "io/scene/load_scene.h"
 
 #include <cstdint>

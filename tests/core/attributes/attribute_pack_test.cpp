@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Packed attributes: the device packs as the oracle does, and reading gives what was packed.
 #include "core/attributes/attribute_pack.h"
-#include "core/headless/attribute_packer.h"
+#include "runtime/attribute_packer.h"
+#include "runtime/trees.h"
 
 #include "core/base/kernels.h"
-#include "core/headless/compress.h"
 #include "core/tree/device_tree.h"
 #include "oracle/attribute_formats.h"
 #include "support/dag_compare.h"

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Errors of packed attributes on whole scenes: colours in dB, normals in degrees, pictures in dB. The disabled test
 // makes the tables of docs/attributes.md.
-#include "core/headless/attribute_packer.h"
-#include "core/headless/pipeline.h"
 #include "io/gltf/gltf_loader.h"
+#include "runtime/trees.h"
 #include "support/engine_device.h"
 #include "support/octree_access.h"
 #include "support/param_names.h"

@@ -3,9 +3,9 @@
 #include "core/deform/dynamic_object.h"
 
 #include "core/base/kernels.h"
-#include "core/headless/pipeline.h"
 #include "core/octree/octree_build.h"
 #include "core/scene/animation.h"
+#include "runtime/trees.h"
 #include "support/deforming_scenes.h"
 #include "support/device.h"
 #include "support/engine_device.h"

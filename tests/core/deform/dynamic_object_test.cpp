@@ -3,10 +3,10 @@
 // anew.
 #include "core/deform/dynamic_object.h"
 
-#include "core/headless/pipeline.h"
 #include "core/octree/octree_build.h"
 #include "core/scene/animation.h"
 #include "oracle/morton.h"
+#include "runtime/trees.h"
 #include "support/deforming_scenes.h"
 #include "support/engine_device.h"
 #include "support/materials_scene.h"

@@ -2,12 +2,10 @@
 // Dynamic updates at their limits give a defined result, or an error that says what is wrong.
 #include "core/base/kernels.h"
 #include "core/dynamic/dynamic_octree.h"
-#include "core/headless/attribute_packer.h"
-#include "core/headless/pipeline.h"
+#include "runtime/trees.h"
 #include "support/ballast.h"
 #include "support/device.h"
-#include "support/dynamic_scenery.h"
-#include "support/dynamic_updates.h"
+#include "support/dynamic_world.h"
 #include "support/engine_device.h"
 #include "support/scenes.h"
 #include "zvo/error.h"
@@ -33,8 +31,8 @@ namespace
 {
 
 using test::Cell;
-using test::DynamicScenery;
 using test::DynamicSetting;
+using test::DynamicWorld;
 using test::Item;
 using test::Placement;
 using Kind = Placement::Kind;
@@ -64,44 +62,6 @@ void expectError(ErrorCode code, const std::string& message, const std::function
     }
 }
 
-// An octree, and dynamic objects that are named by their index.
-class World
-{
-public:
-    World(vk::HeadlessDevice& device, const DynamicSetting& setting, const HistoryBounds& history = {16, UINT64_MAX})
-        : m_device(device), m_setting(setting), m_scenery(device, true)
-    {
-        DynamicOptions options = setting.options(m_scenery.emissionScale());
-        options.history = history;
-        m_octree = std::make_unique<DynamicOctree>(device, m_scenery.buildStatic(setting), options);
-    }
-
-    DynamicOctree& octree() { return *m_octree; }
-    DynamicScenery& scenery() { return m_scenery; }
-
-    DynamicObjectId add(const Item& item)
-    {
-        return m_octree->add(m_scenery.object(item.mesh, true), m_scenery.poseOf(item));
-    }
-    void setPose(DynamicObjectId object, const Item& item) { m_octree->setPose(object, m_scenery.poseOf(item)); }
-
-    UpdateReport update() { return test::updateAll(m_device, *m_octree); }
-    bool undo() { return test::undo(m_device, *m_octree); }
-    bool redo() { return test::redo(m_device, *m_octree); }
-
-    std::vector<Cell> shown() { return test::cellsOf(m_device, m_octree->tree()); }
-    std::vector<Cell> rebuilt(const std::multiset<Item>& items)
-    {
-        return m_scenery.rebuilt(m_setting, true, items)->cells;
-    }
-
-private:
-    vk::HeadlessDevice& m_device;
-    DynamicSetting m_setting;
-    DynamicScenery m_scenery;
-    std::unique_ptr<DynamicOctree> m_octree;
-};
-
 constexpr Item kMiddle = {0, {Kind::Inside, {1, 1, 1}}};
 
 // The memory is less than an update needs; every allocation fails in turn.
@@ -112,7 +72,7 @@ TEST(DynamicEdges, WithoutMemoryWhatWasShownStaysShown)
     for (std::size_t pieces_left = 0; pieces_left < 200; pieces_left += 1 + pieces_left / 6)
     {
         SCOPED_TRACE(pieces_left);
-        World world(limited, {.depth = 5, .minimal_capacities = true});
+        DynamicWorld world(limited, {.depth = 5, .minimal_capacities = true});
         const bool new_layer = pieces_left % 2 != 0;
         world.add(kMiddle);
         const DynamicObjectId object = world.add(kMiddle);
@@ -148,10 +108,10 @@ TEST(DynamicEdges, WithoutMemoryWhatWasShownStaysShown)
         rest.clear();
         if (!is_enough)
         {
-            EXPECT_EQ(test::difference(world.shown(), before), "");
+            EXPECT_EQ(world.differenceFrom(before), "");
         }
         world.update();
-        EXPECT_EQ(test::difference(world.shown(), world.rebuilt(items)), "");
+        EXPECT_EQ(world.differenceFromRebuilt(items), "");
     }
     EXPECT_TRUE(needs.contains("room for overlays"));
     EXPECT_TRUE(needs.contains("the voxels of a dynamic object"));
@@ -161,7 +121,7 @@ TEST(DynamicEdges, WithoutMemoryWhatWasShownStaysShown)
 TEST(DynamicEdges, WithoutMemoryToGrowAnUpdateWaitsForFramesInFlight)
 {
     vk::HeadlessDevice limited(limitedOptions(), zvoKernels());
-    World world(limited, {.depth = 6, .frames_in_flight = 64}, {1, UINT64_MAX});
+    DynamicWorld world(limited, {.depth = 6, .frames_in_flight = 64}, {1, UINT64_MAX});
     const std::array items = {kMiddle, Item{0, {Kind::Turned, {1, 1, 1}}}};
     const DynamicObjectId object = world.add(items[0]);
     for (std::size_t i = 0; i < 4; ++i)
@@ -169,7 +129,7 @@ TEST(DynamicEdges, WithoutMemoryToGrowAnUpdateWaitsForFramesInFlight)
         world.setPose(object, items[i % 2]);
         world.update();
     }
-    const std::array expected = {world.rebuilt({items[0]}), world.rebuilt({items[1]})};
+    const std::array expected = {world.rebuilt({items[0]})->cells, world.rebuilt({items[1]})->cells};
     auto rest = test::ballast(limited, 0);
     struct Flight
     {
@@ -204,15 +164,14 @@ TEST(DynamicEdges, WithoutMemoryToGrowAnUpdateWaitsForFramesInFlight)
     }
     EXPECT_TRUE(world.octree().needsUpdate());
     rest.clear();
-    EXPECT_EQ(test::difference(world.shown(), expected.at((complete_count - 1) % 2)), "");
+    EXPECT_EQ(world.differenceFrom(expected.at((complete_count - 1) % 2)), "");
     world.update();
-    EXPECT_EQ(test::difference(world.shown(), expected.at(complete_count % 2)), "");
+    EXPECT_EQ(world.differenceFrom(expected.at(complete_count % 2)), "");
 }
 
 TEST(DynamicEdges, ObjectsThatCoverNothingShowTheStaticOctree)
 {
-    World world(device(), {.depth = 5});
-    const std::vector<Cell> expected = world.rebuilt({});
+    DynamicWorld world(device(), {.depth = 5});
     const DynamicObjectId object = world.add(kMiddle);
     for (const Kind kind : {Kind::Outside, Kind::Point, Kind::Nan, Kind::Huge})
     {
@@ -222,7 +181,7 @@ TEST(DynamicEdges, ObjectsThatCoverNothingShowTheStaticOctree)
         EXPECT_EQ(report.failed, 0U);
         EXPECT_EQ(report.dynamic_count, 0U);
         EXPECT_EQ(report.node_count, 1U);
-        EXPECT_EQ(test::difference(world.shown(), expected), "");
+        EXPECT_EQ(world.differenceFromRebuilt({}), "");
     }
 }
 
@@ -253,9 +212,8 @@ TEST(DynamicEdges, MoreFragmentsThanSumsHoldAreAveragedWithFewerBits)
         {
             do
             {
-                const std::uint64_t frame = octree.beginFrame();
-                device().run([&](vk::FrameGraph& graph) { octree.update(graph); });
-                for (const UpdateReport& report : octree.frameDone(frame))
+                for (const UpdateReport& report :
+                     test::runFrame(device(), octree, [&](vk::FrameGraph& graph) { octree.update(graph); }))
                 {
                     failed |= report.failed;
                 }
@@ -301,7 +259,7 @@ TEST(DynamicEdges, MoreFragmentsThanSumsHoldAreAveragedWithFewerBits)
 
 TEST(DynamicEdges, ManyLayersAtOnceAreWhatARebuildIs)
 {
-    World world(device(), {.depth = 5}, {1, UINT64_MAX});
+    DynamicWorld world(device(), {.depth = 5}, {1, UINT64_MAX});
     std::multiset<Item> items;
     for (int i = 0; i < 256; ++i)
     {
@@ -311,12 +269,12 @@ TEST(DynamicEdges, ManyLayersAtOnceAreWhatARebuildIs)
         world.add(item);
     }
     world.update();
-    EXPECT_EQ(test::difference(world.shown(), world.rebuilt(items)), "");
+    EXPECT_EQ(world.differenceFromRebuilt(items), "");
 }
 
 TEST(DynamicEdges, MoreObjectsThanLayersAreRefused)
 {
-    World world(device(), {.depth = 5}, {1, UINT64_MAX});
+    DynamicWorld world(device(), {.depth = 5}, {1, UINT64_MAX});
     for (std::uint32_t i = 0; i < gpu::kLayersMax; ++i)
     {
         world.add(kMiddle);
@@ -326,7 +284,7 @@ TEST(DynamicEdges, MoreObjectsThanLayersAreRefused)
 
 TEST(DynamicEdges, TheHistoryKeepsAsManyEntriesAsItMay)
 {
-    World world(device(), {.depth = 4}, {3, UINT64_MAX});
+    DynamicWorld world(device(), {.depth = 4}, {3, UINT64_MAX});
     const DynamicObjectId object = world.add(kMiddle);
     std::vector<std::vector<Cell>> shown;
     for (int i = 0; i < 8; ++i)
@@ -339,15 +297,15 @@ TEST(DynamicEdges, TheHistoryKeepsAsManyEntriesAsItMay)
     for (const std::size_t step : {6U, 5U})
     {
         EXPECT_TRUE(world.undo());
-        EXPECT_EQ(test::difference(world.shown(), shown[step]), "");
+        EXPECT_EQ(world.differenceFrom(shown[step]), "");
     }
     EXPECT_TRUE(world.undo()); // the oldest entry is always the static octree
-    EXPECT_EQ(test::difference(world.shown(), world.rebuilt({})), "");
+    EXPECT_EQ(world.differenceFromRebuilt({}), "");
     EXPECT_FALSE(world.undo());
     for (const std::size_t step : {5U, 6U, 7U})
     {
         EXPECT_TRUE(world.redo());
-        EXPECT_EQ(test::difference(world.shown(), shown[step]), "");
+        EXPECT_EQ(world.differenceFrom(shown[step]), "");
     }
     EXPECT_FALSE(world.redo());
 }
@@ -357,7 +315,7 @@ TEST(DynamicEdges, TheHistoryKeepsAsManyBytesAsItMay)
     for (const std::uint64_t bytes_max : {std::uint64_t{1}, std::uint64_t{100'000}})
     {
         SCOPED_TRACE(bytes_max);
-        World world(device(), {.depth = 5}, {1000, bytes_max});
+        DynamicWorld world(device(), {.depth = 5}, {1000, bytes_max});
         const DynamicObjectId object = world.add(kMiddle);
         std::size_t steps = 0;
         for (int i = 0; i < 24; ++i)
@@ -368,7 +326,7 @@ TEST(DynamicEdges, TheHistoryKeepsAsManyBytesAsItMay)
             EXPECT_TRUE(history.entryBytes() <= bytes_max || history.undoCount() == 1) << history.entryBytes();
             steps = std::max(steps, history.undoCount());
         }
-        EXPECT_EQ(test::difference(world.shown(), world.rebuilt({{0, {Kind::Inside, {3, 1, 1}}}})), "");
+        EXPECT_EQ(world.differenceFromRebuilt({{0, {Kind::Inside, {3, 1, 1}}}}), "");
         EXPECT_EQ(steps > 1, bytes_max > 1);
         EXPECT_LT(steps, 24U);
     }
@@ -376,7 +334,7 @@ TEST(DynamicEdges, TheHistoryKeepsAsManyBytesAsItMay)
 
 TEST(DynamicEdges, WhatMakesNoSenseIsRefused)
 {
-    World world(device(), {.depth = 3});
+    DynamicWorld world(device(), {.depth = 3});
     const DynamicObjectId object = world.add(kMiddle);
     world.update();
     const Pose pose = world.scenery().poseOf(kMiddle);
@@ -400,7 +358,7 @@ TEST(DynamicEdges, WhatMakesNoSenseIsRefused)
     world.octree().remove(object);
     expectError(ErrorCode::Usage, "no dynamic object 1", [&] { world.octree().remove(object); });
     EXPECT_EQ(world.update().entry, 0U); // only the static octree is left
-    EXPECT_EQ(test::difference(world.shown(), world.rebuilt({})), "");
+    EXPECT_EQ(world.differenceFromRebuilt({}), "");
 
     const DynamicSetting setting = {.depth = 3};
     const float scale = world.scenery().emissionScale();
@@ -428,22 +386,22 @@ TEST(DynamicEdges, WhatMakesNoSenseIsRefused)
 
 TEST(DynamicEdges, MoreUpdatesThanFramesInFlightAreRefused)
 {
-    World world(device(), {.depth = 3, .frames_in_flight = 1});
+    DynamicWorld world(device(), {.depth = 3, .frames_in_flight = 1});
     world.add(kMiddle);
     world.update();
-    const std::uint64_t frame = world.octree().beginFrame();
-    device().run(
-        [&](vk::FrameGraph& graph)
-        {
-            for (int i = 0; i < 4; ++i)
-            {
-                EXPECT_TRUE(world.octree().update(graph));
-            }
-            expectError(ErrorCode::Usage, "frames in flight", [&] { world.octree().update(graph); });
-        });
-    EXPECT_EQ(world.octree().frameDone(frame).size(), 4U);
+    const std::vector<UpdateReport> reports =
+        test::runFrame(device(), world.octree(),
+                       [&](vk::FrameGraph& graph)
+                       {
+                           for (int i = 0; i < 4; ++i)
+                           {
+                               EXPECT_TRUE(world.octree().update(graph));
+                           }
+                           expectError(ErrorCode::Usage, "frames in flight", [&] { world.octree().update(graph); });
+                       });
+    EXPECT_EQ(reports.size(), 4U);
     world.update();
-    EXPECT_EQ(test::difference(world.shown(), world.rebuilt({kMiddle})), "");
+    EXPECT_EQ(world.differenceFromRebuilt({kMiddle}), "");
 }
 
 } // namespace

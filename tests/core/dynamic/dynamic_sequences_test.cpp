@@ -27,34 +27,11 @@ namespace
 using test::Command;
 using test::DynamicScenery;
 using test::DynamicSetting;
-using test::Item;
 using test::Placement;
 using test::Shot;
 
-constexpr std::uint32_t kBendCount = 5;
-
-using Kind = Placement::Kind;
+using test::anyBetween;
 using test::device;
-
-// A number from low to high - 1, uniform also in small cases, for which rc::gen::inRange gives only the lowest.
-template <typename T> rc::Gen<T> anyBetween(T low, T high)
-{
-    return rc::gen::resize(rc::kNominalSize, rc::gen::inRange(low, high));
-}
-
-rc::Gen<Placement> anyPlacement()
-{
-    return rc::gen::build<Placement>(
-        rc::gen::set(&Placement::kind, rc::gen::weightedElement<Kind>({{12, Kind::Inside},
-                                                                       {2, Kind::Outside},
-                                                                       {1, Kind::Point},
-                                                                       {1, Kind::Flat},
-                                                                       {3, Kind::Mirrored},
-                                                                       {3, Kind::Turned},
-                                                                       {1, Kind::Nan},
-                                                                       {1, Kind::Huge}})),
-        rc::gen::set(&Placement::at, rc::gen::container<std::array<int, 3>>(anyBetween(-1, 4))));
-}
 
 rc::Gen<Command> anyCommand()
 {
@@ -73,11 +50,7 @@ rc::Gen<Command> anyCommand()
                                                                          {2, Action::Lose},
                                                                          {2, Action::Wait}})),
         rc::gen::set(&Command::object, anyBetween<std::uint32_t>(0, test::DynamicMachine::kObjectsMax)),
-        rc::gen::set(
-            &Command::item,
-            rc::gen::build<Item>(rc::gen::set(&Item::mesh, anyBetween<std::uint32_t>(0, DynamicScenery::kMeshCount)),
-                                 rc::gen::set(&Item::placement, anyPlacement()),
-                                 rc::gen::set(&Item::bend, anyBetween<std::uint32_t>(0, kBendCount)))));
+        rc::gen::set(&Command::item, test::anyItem()));
 }
 
 rc::Gen<Shot> anyShot()
@@ -119,7 +92,7 @@ TEST(DynamicSequences, BendMeshesWithinRoundingsOfDoublePrecision)
     for (std::uint32_t mesh = DynamicScenery::kRigidCount; mesh < DynamicScenery::kMeshCount; ++mesh)
     {
         const Scene& scene = scenery.mesh(mesh);
-        for (std::uint32_t bend = 0; bend < kBendCount; ++bend)
+        for (std::uint32_t bend = 0; bend < test::kBendCount; ++bend)
         {
             for (const Placement::Kind kind : {Placement::Kind::Inside, Placement::Kind::Flat, Placement::Kind::Turned})
             {

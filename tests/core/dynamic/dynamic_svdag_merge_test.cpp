@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 // Dynamic objects merged with a DAG. What is shown equals a full rebuild, and the DAG does not change.
 #include "core/dynamic/dynamic_octree.h"
-#include "core/headless/compress.h"
-#include "support/dynamic_scenery.h"
-#include "support/dynamic_updates.h"
+#include "runtime/trees.h"
+#include "support/dynamic_world.h"
 #include "support/engine_device.h"
 #include "support/octree_contents.h"
 #include "support/trace_octrees.h"
 #include "support/tree_comparison.h"
+#include "support/tree_words.h"
 #include "zvo/error.h"
 
 #include <gtest/gtest.h>
@@ -28,52 +28,28 @@ namespace
 
 using test::DynamicScenery;
 using test::DynamicSetting;
+using test::DynamicWorld;
 using test::Item;
 using Kind = test::Placement::Kind;
 
 using test::device;
 
-/// A scenery whose static part is a DAG.
-class MergedWorld
-{
-public:
-    explicit MergedWorld(const DynamicSetting& setting) : m_setting(setting), m_scenery(device(), true)
-    {
-        m_setting.compressed = true;
-        m_octree = std::make_unique<DynamicOctree>(device(), m_scenery.buildStatic(m_setting),
-                                                   m_setting.options(m_scenery.emissionScale()));
-    }
-
-    DynamicOctree& octree() { return *m_octree; }
-
-    DynamicObjectId add(const Item& item)
-    {
-        return m_octree->add(m_scenery.object(item.mesh, true), m_scenery.poseOf(item));
-    }
-    void setPose(DynamicObjectId object, const Item& item) { m_octree->setPose(object, m_scenery.poseOf(item)); }
-
-    void expectRebuilt(const std::multiset<Item>& items, bool with_pictures)
-    {
-        const std::shared_ptr<const test::Rebuilt> rebuilt = m_scenery.rebuilt(m_setting, true, items);
-        EXPECT_EQ(test::difference(test::cellsOf(device(), m_octree->tree()), rebuilt->cells), "");
-        if (with_pictures)
-        {
-            const double edge = m_setting.grid().resolution();
-            const ViewCamera close =
-                ViewCamera::lookAt(edge * glm::dvec3(1.27, 1.11, 1.47), edge * glm::dvec3(0.43, 0.51, 0.39), 0.9);
-            test::TreeComparison(device(), rebuilt->octree, m_octree->tree()).pictures(close);
-        }
-    }
-
-private:
-    DynamicSetting m_setting;
-    DynamicScenery m_scenery;
-    std::unique_ptr<DynamicOctree> m_octree;
-};
-
 constexpr Item kMergedMiddle = {0, {Kind::Inside, {1, 1, 1}}};
 constexpr Item kTurned = {0, {Kind::Turned, {2, 1, 2}}};
 constexpr Item kMergedBent = {2, {Kind::Inside, {1, 2, 1}}, 3};
+
+// Compares what is shown with a rebuild, by cells and by pictures.
+void expectRebuilt(DynamicWorld& world, const std::multiset<Item>& items, bool with_pictures)
+{
+    EXPECT_EQ(world.differenceFromRebuilt(items), "");
+    if (with_pictures)
+    {
+        const double edge = world.setting().grid().resolution();
+        const ViewCamera close =
+            ViewCamera::lookAt(edge * glm::dvec3(1.27, 1.11, 1.47), edge * glm::dvec3(0.43, 0.51, 0.39), 0.9);
+        test::TreeComparison(device(), world.rebuilt(items)->octree, world.octree().tree()).pictures(close);
+    }
+}
 
 TEST(DynamicSvdagMerge, AveragedObjectsGiveWhatARebuildGives)
 {
@@ -81,34 +57,25 @@ TEST(DynamicSvdagMerge, AveragedObjectsGiveWhatARebuildGives)
     {
         SCOPED_TRACE("depth " + std::to_string(depth));
         const bool with_pictures = depth > 4 && depth < 13;
-        MergedWorld world({.depth = depth, .minimal_capacities = depth % 2 != 0});
-        world.expectRebuilt({}, with_pictures);
+        DynamicWorld world(device(), {.depth = depth, .compressed = true, .minimal_capacities = depth % 2 != 0});
+        expectRebuilt(world, {}, with_pictures);
         const DynamicObjectId first = world.add(kMergedMiddle);
-        test::updateAll(device(), world.octree());
-        world.expectRebuilt({kMergedMiddle}, false);
+        world.update();
+        expectRebuilt(world, {kMergedMiddle}, false);
         const DynamicObjectId second = world.add(kTurned);
         world.add(kMergedBent);
-        test::updateAll(device(), world.octree());
-        world.expectRebuilt({kMergedMiddle, kTurned, kMergedBent}, with_pictures);
+        world.update();
+        expectRebuilt(world, {kMergedMiddle, kTurned, kMergedBent}, with_pictures);
         world.setPose(first, {0, {Kind::Mirrored, {0, 2, 1}}});
         world.octree().remove(second);
-        test::updateAll(device(), world.octree());
-        world.expectRebuilt({{0, {Kind::Mirrored, {0, 2, 1}}}, kMergedBent}, false);
-        EXPECT_TRUE(test::undo(device(), world.octree()));
-        world.expectRebuilt({kMergedMiddle, kTurned, kMergedBent}, false);
-        EXPECT_TRUE(test::undo(device(), world.octree()));
-        EXPECT_TRUE(test::undo(device(), world.octree()));
-        world.expectRebuilt({}, with_pictures);
+        world.update();
+        expectRebuilt(world, {{0, {Kind::Mirrored, {0, 2, 1}}}, kMergedBent}, false);
+        EXPECT_TRUE(world.undo());
+        expectRebuilt(world, {kMergedMiddle, kTurned, kMergedBent}, false);
+        EXPECT_TRUE(world.undo());
+        EXPECT_TRUE(world.undo());
+        expectRebuilt(world, {}, with_pictures);
     }
-}
-
-// Appends words of buffer, from element first on.
-template <typename T>
-void addWords(std::vector<gpu::uint>& words, const vk::BufferOf<T>& buffer, std::uint64_t first, std::uint64_t count)
-{
-    const std::vector<T> values = device().download(buffer, first, count);
-    const auto* begin = reinterpret_cast<const gpu::uint*>(values.data());
-    words.insert(words.end(), begin, begin + values.size() * sizeof(T) / sizeof(gpu::uint));
 }
 
 TEST(DynamicSvdagMerge, NothingOfTheDagIsEverWritten)
@@ -118,16 +85,9 @@ TEST(DynamicSvdagMerge, NothingOfTheDagIsEverWritten)
     DeviceTree fixed = scenery.buildStatic(setting);
     const std::uint64_t node_end = fixed.nodes.count();
     ASSERT_GT(fixed.lists.entry_count, 100U);
+    const std::uint64_t emissive_count = fixed.emission.count();
     const auto bytes = [&](const DeviceTree& dag)
-    {
-        std::vector<gpu::uint> words;
-        addWords(words, dag.nodes, 1, node_end - 1); // behind the root's slot, lists included
-        addWords(words, dag.node_attributes, 1, dag.octreeNodeCount() - 1);
-        addWords(words, dag.voxel_attributes, 0, dag.voxel_count);
-        addWords(words, dag.lists.before, 0, dag.lists.before.count());
-        addWords(words, dag.lists.voxels_before_leaf, 0, dag.lists.voxels_before_leaf.count());
-        return words;
-    };
+    { return test::staticWords(device(), dag, node_end, emissive_count); };
     const gpu::Node root = device().download(fixed.nodes, 0, 1).front();
     const std::vector<gpu::uint> before = bytes(fixed);
     DynamicOctree octree(device(), std::move(fixed), setting.options(scenery.emissionScale()));
@@ -154,23 +114,23 @@ TEST(DynamicSvdagMerge, NothingOfTheDagIsEverWritten)
 
 TEST(DynamicSvdagMerge, UndoGivesTheSameBytes)
 {
-    MergedWorld world({.depth = 6});
+    DynamicWorld world(device(), {.depth = 6, .compressed = true});
     const DynamicObjectId object = world.add(kMergedMiddle);
-    test::updateAll(device(), world.octree());
+    world.update();
     const auto bytes = [&]
     {
         const DeviceTree& octree = world.octree().tree();
         std::vector<gpu::uint> words;
-        addWords(words, octree.nodes, 0, octree.nodes.count());
-        addWords(words, octree.node_attributes, 0, octree.node_attributes.count());
-        addWords(words, octree.voxel_attributes, 0, octree.voxel_attributes.count());
+        test::addWords(words, device(), octree.nodes, 0, octree.nodes.count());
+        test::addWords(words, device(), octree.node_attributes, 0, octree.node_attributes.count());
+        test::addWords(words, device(), octree.voxel_attributes, 0, octree.voxel_attributes.count());
         return words;
     };
     const std::vector<gpu::uint> before = bytes();
     world.setPose(object, kTurned);
-    test::updateAll(device(), world.octree());
+    world.update();
     EXPECT_FALSE(bytes() == before);
-    EXPECT_TRUE(test::undo(device(), world.octree()));
+    EXPECT_TRUE(world.undo());
     const std::vector<gpu::uint> after = bytes();
     // The overlay that was undone stays, where memory was free before.
     const RootEntry step = world.octree().history().current();

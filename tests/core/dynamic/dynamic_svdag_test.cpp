@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Dynamic objects above a DAG look the same as above the octree that the DAG was made of.
 #include "core/dynamic/dynamic_octree.h"
-#include "core/headless/compress.h"
 #include "oracle/dag.h"
 #include "oracle/morton.h"
+#include "runtime/trees.h"
 #include "support/dynamic_updates.h"
 #include "support/engine_device.h"
 #include "support/octree_contents.h"

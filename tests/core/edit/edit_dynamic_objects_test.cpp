@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 // Dynamic objects above edited voxels, case by case.
 #include "oracle/morton.h"
+#include "support/dynamic_updates.h"
 #include "support/edit_machine.h"
 #include "support/engine_device.h"
 
 #include <gtest/gtest.h>
 
-#include <functional>
 #include <map>
 #include <set>
 #include <utility>
@@ -18,13 +18,13 @@ namespace
 {
 
 using test::Cell;
+using test::Command;
 using test::DynamicScenery;
 using test::DynamicSetting;
-using test::EditCommand;
 using test::EditMachine;
 using test::EditModel;
 using test::Item;
-using Action = EditCommand::Action;
+using Action = Command::Action;
 using Kind = test::Placement::Kind;
 
 using test::dab;
@@ -33,16 +33,9 @@ using test::device;
 constexpr Item kMiddle = {0, {Kind::Inside, {1, 1, 1}}};
 constexpr Item kApart = {0, {Kind::Mirrored, {2, 0, 2}}};
 
-EditCommand add(const Item& item)
+Command add(const Item& item)
 {
     return {.action = Action::Add, .item = item};
-}
-
-void runFrame(DynamicOctree& octree, const std::function<void(vk::FrameGraph&)>& record)
-{
-    const std::uint64_t frame = octree.beginFrame();
-    device().run(record);
-    octree.frameDone(frame);
 }
 
 std::vector<Cell> mergedCells(DynamicScenery& scenery, const DynamicSetting& setting, const EditModel& model,
@@ -62,22 +55,17 @@ TEST(EditDynamicObjects, HaveAHistoryAboveEachStroke)
     {
         SCOPED_TRACE(compressed);
         const DynamicSetting setting = {.depth = 5, .compressed = compressed};
-        EditMachine machine(device(), setting, {}, scenery);
+        EditMachine machine(device(), setting, DynamicOptions().edits, scenery);
         DynamicOctree& octree = machine.octree();
         const auto expectShown = [&](const std::vector<Cell>& expected)
         { EXPECT_EQ(test::difference(test::cellsOf(device(), octree.tree()), expected), ""); };
-        const auto move = [&](bool undo)
-        {
-            bool moved = false;
-            runFrame(octree, [&](vk::FrameGraph& graph) { moved = undo ? octree.undo(graph) : octree.redo(graph); });
-            return moved;
-        };
+        const auto move = [&](bool undo) { return undo ? test::undo(device(), octree) : test::redo(device(), octree); };
         machine.run(dab(BrushAction::Carve, {20, 16, 12}, 7));
         machine.run({Action::EndStroke});
         machine.run(add(kMiddle));
-        machine.run({Action::Compare});
+        machine.run({Action::Settle});
         machine.run({.action = Action::Move, .item = kApart});
-        machine.run({Action::Compare});
+        machine.run({Action::Settle});
         EXPECT_EQ(octree.history().undoCount(), 2U);
         EXPECT_TRUE(move(true));
         expectShown(mergedCells(scenery, setting, machine.model(), {kMiddle}));
@@ -92,7 +80,7 @@ TEST(EditDynamicObjects, HaveAHistoryAboveEachStroke)
         machine.run({Action::Submit});
         EXPECT_EQ(octree.history().undoCount() + octree.history().redoCount(), 0U);
         EXPECT_TRUE(octree.needsUpdate());
-        machine.run({Action::Compare});
+        machine.run({Action::Settle});
         EXPECT_TRUE(move(true));
         expectShown(machine.model().cells());
         EXPECT_FALSE(move(true));
@@ -105,7 +93,7 @@ TEST(EditDynamicObjects, AreAveragedOnlyWithLeavesThatNoBrushHasChanged)
 {
     DynamicScenery scenery(device(), true);
     const DynamicSetting setting = {.depth = 6};
-    EditMachine machine(device(), setting, {}, scenery);
+    EditMachine machine(device(), setting, DynamicOptions().edits, scenery);
     const std::uint32_t leaf_level = setting.grid().nodeLevels();
     const auto voxels = [&](const std::vector<Cell>& cells)
     {
@@ -133,7 +121,7 @@ TEST(EditDynamicObjects, AreAveragedOnlyWithLeavesThatNoBrushHasChanged)
     ASSERT_GT(shared.size(), 1U);
     machine.run(dab(BrushAction::Paint, glm::ivec3(oracle::mortonDecode(shared.front())), 2));
     machine.run(add(kMiddle));
-    machine.run({Action::Compare});
+    machine.run({Action::Settle});
     std::set<std::uint64_t> painted; // leaves
     for (const auto& [code, voxel] : machine.model().voxels())
     {
@@ -163,7 +151,7 @@ TEST(EditDynamicObjects, AnUpdateUnderWayIsGivenUpForAStroke)
     DynamicScenery scenery(device(), true);
     for (std::size_t slices = 1; slices < 12; ++slices)
     {
-        EditMachine machine(device(), {.depth = 5, .compressed = slices % 2 == 0}, {}, scenery);
+        EditMachine machine(device(), {.depth = 5, .compressed = slices % 2 == 0}, DynamicOptions().edits, scenery);
         machine.run(dab(BrushAction::Carve, {20, 16, 12}, 5));
         machine.run({Action::EndStroke});
         machine.run(add(kMiddle));
@@ -175,11 +163,11 @@ TEST(EditDynamicObjects, AnUpdateUnderWayIsGivenUpForAStroke)
         }
         const bool was_updating = machine.octree().isUpdating();
         EXPECT_TRUE(was_updating || slices > 2);
-        machine.run(slices % 3 == 0 ? EditCommand{Action::Undo} : dab(BrushAction::Fill, {16, 16, 16}, 6));
+        machine.run(slices % 3 == 0 ? Command{Action::Undo} : dab(BrushAction::Fill, {16, 16, 16}, 6));
         machine.run({Action::Submit});
         EXPECT_FALSE(machine.octree().isUpdating());
         EXPECT_TRUE(machine.octree().needsUpdate());
-        machine.run({Action::Compare});
+        machine.run({Action::Settle});
         machine.finish();
     }
 }

@@ -5,6 +5,7 @@
 #include "support/ballast.h"
 #include "support/device.h"
 #include "support/dynamic_scenery.h"
+#include "support/dynamic_updates.h"
 #include "support/edit_model.h"
 #include "support/failing_vulkan.h"
 #include "support/sweep.h"
@@ -68,7 +69,7 @@ class Session
 {
 public:
     Session(vk::HeadlessDevice& device, DynamicScenery& scenery, const DynamicSetting& setting,
-            const EditBounds& bounds, AfterError after_error, Fail fail)
+            const HistoryBounds& bounds, AfterError after_error, Fail fail)
         : m_device(device), m_scenery(scenery), m_setting(setting), m_after_error(after_error), m_fail(std::move(fail))
     {
         DynamicOptions options = setting.options(scenery.emissionScale());
@@ -382,9 +383,7 @@ TEST(EditFailingCalls, WithoutMemoryWhatWasShownStaysShown)
         EXPECT_EQ(test::difference(cells(), model.cells()), "");
         for (std::size_t undo_count = octree.edits().undoCount(); undo_count-- > 0;)
         {
-            const std::uint64_t frame = octree.beginFrame();
-            limited.run([&](vk::FrameGraph& graph) { EXPECT_TRUE(octree.undoEdit(graph)); });
-            octree.frameDone(frame);
+            test::runFrame(limited, octree, [&](vk::FrameGraph& graph) { EXPECT_TRUE(octree.undoEdit(graph)); });
         }
         EXPECT_EQ(test::difference(cells(), scenery.rebuilt(setting, true, {})->cells), "");
     }

@@ -3,20 +3,20 @@
 // within its limit.
 #include "core/base/morton.h"
 #include "core/dynamic/dynamic_octree.h"
-#include "core/headless/compress.h"
-#include "core/headless/pipeline.h"
 #include "core/tree/device_tree.h"
 #include "io/gltf/gltf_loader.h"
+#include "runtime/trees.h"
+#include "support/dynamic_updates.h"
 #include "support/engine_device.h"
 #include "support/pictures.h"
 #include "support/scenes.h"
+#include "support/tree_words.h"
 
 #include <gtest/gtest.h>
 
 #include <cstdint>
 #include <memory>
 #include <random>
-#include <span>
 #include <utility>
 #include <vector>
 
@@ -39,7 +39,7 @@ using test::device;
 class World
 {
 public:
-    World(bool compressed, const EditBounds& bounds, std::size_t center_count)
+    World(bool compressed, const HistoryBounds& bounds, std::size_t center_count)
     {
         const Scene scene = loadGltf(test::ownScene("atrium.glb"));
         const Grid grid = Grid::around(scene.bounds(), kDepth);
@@ -71,18 +71,18 @@ public:
         for (std::uint32_t done = 0, attempt = 0; done < count; ++attempt)
         {
             ASSERT_LT(attempt, 3 * count);
-            frame(
-                [&](vk::FrameGraph& graph)
-                {
-                    bool has_room = true;
-                    for (std::uint32_t i = 0; i < kStrokesPerFrame && done < count && has_room; ++i)
-                    {
-                        has_room = m_octree->edit(graph, brush(m_stroke_count));
-                        m_octree->endStroke();
-                        done += has_room ? 1 : 0;
-                        m_stroke_count += has_room ? 1 : 0;
-                    }
-                });
+            test::runFrame(device(), *m_octree,
+                           [&](vk::FrameGraph& graph)
+                           {
+                               bool has_room = true;
+                               for (std::uint32_t i = 0; i < kStrokesPerFrame && done < count && has_room; ++i)
+                               {
+                                   has_room = m_octree->edit(graph, brush(m_stroke_count));
+                                   m_octree->endStroke();
+                                   done += has_room ? 1 : 0;
+                                   m_stroke_count += has_room ? 1 : 0;
+                               }
+                           });
         }
     }
 
@@ -90,14 +90,14 @@ public:
     {
         for (std::size_t done = 0; done < count;)
         {
-            frame(
-                [&](vk::FrameGraph& graph)
-                {
-                    for (std::uint32_t i = 0; i < kStrokesPerFrame && done < count; ++i, ++done)
-                    {
-                        ASSERT_TRUE(undo ? m_octree->undoEdit(graph) : m_octree->redoEdit(graph));
-                    }
-                });
+            test::runFrame(device(), *m_octree,
+                           [&](vk::FrameGraph& graph)
+                           {
+                               for (std::uint32_t i = 0; i < kStrokesPerFrame && done < count; ++i, ++done)
+                               {
+                                   ASSERT_TRUE(undo ? m_octree->undoEdit(graph) : m_octree->redoEdit(graph));
+                               }
+                           });
         }
     }
 
@@ -110,16 +110,10 @@ public:
     std::vector<gpu::uint> staticWords()
     {
         std::vector<gpu::uint> words;
-        const auto add = [&](const auto& values)
-        {
-            const auto* begin = reinterpret_cast<const gpu::uint*>(values.data());
-            words.insert(words.end(), begin, begin + std::as_bytes(std::span(values)).size() / sizeof(gpu::uint));
-        };
         const DeviceTree& octree = m_octree->tree();
-        const std::uint32_t root = m_octree->staticRoot();
-        add(device().download(octree.nodes, 1, root));
-        add(device().download(octree.node_attributes, 1, octree.octreeNodeCount()));
-        add(device().download(octree.voxel_attributes, 0, octree.voxel_count));
+        test::addWords(words, device(), octree.nodes, 1, m_octree->staticRoot());
+        test::addWords(words, device(), octree.node_attributes, 1, octree.octreeNodeCount());
+        test::addWords(words, device(), octree.voxel_attributes, 0, octree.voxel_count);
         return words;
     }
 
@@ -136,13 +130,6 @@ private:
         brush.radius = number % 10 == 0 ? 8 : 4;
         brush.color = random() % (1U << 24);
         return brush;
-    }
-
-    template <typename Record> void frame(const Record& record)
-    {
-        const std::uint64_t frame = m_octree->beginFrame();
-        device().run(record);
-        m_octree->frameDone(frame);
     }
 
     std::vector<std::uint64_t> m_centers; // of brushes

@@ -8,7 +8,6 @@
 
 #include <gtest/gtest.h>
 
-#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -17,19 +16,13 @@ namespace zvo
 namespace
 {
 
+using test::Command;
 using test::DynamicScenery;
 using test::DynamicSetting;
-using test::EditCommand;
-using test::Placement;
 
-using Action = EditCommand::Action;
-using Kind = Placement::Kind;
+using Action = Command::Action;
+using test::anyBetween;
 using test::device;
-
-template <typename T> rc::Gen<T> anyBetween(T low, T high)
-{
-    return rc::gen::resize(rc::kNominalSize, rc::gen::inRange(low, high));
-}
 
 rc::Gen<Brush> anyBrush(const Grid& grid)
 {
@@ -45,46 +38,34 @@ rc::Gen<Brush> anyBrush(const Grid& grid)
         rc::gen::set(&Brush::color, anyBetween<std::uint32_t>(0, 1U << 24)));
 }
 
-rc::Gen<EditCommand> anyStroke(const Grid& grid)
+rc::Gen<Command> anyStroke(const Grid& grid)
 {
-    return rc::gen::build<EditCommand>(
-        rc::gen::set(&EditCommand::action, rc::gen::weightedElement<Action>({{12, Action::Dab},
-                                                                             {4, Action::EndStroke},
-                                                                             {4, Action::Undo},
-                                                                             {3, Action::Redo},
-                                                                             {3, Action::Submit},
-                                                                             {1, Action::Lose},
-                                                                             {1, Action::LoseRun},
-                                                                             {1, Action::Compare}})),
-        rc::gen::set(&EditCommand::brush, anyBrush(grid)));
+    return rc::gen::build<Command>(
+        rc::gen::set(&Command::action, rc::gen::weightedElement<Action>({{12, Action::Dab},
+                                                                         {4, Action::EndStroke},
+                                                                         {4, Action::Undo},
+                                                                         {3, Action::Redo},
+                                                                         {3, Action::Submit},
+                                                                         {1, Action::Lose},
+                                                                         {1, Action::LoseRun},
+                                                                         {1, Action::Settle}})),
+        rc::gen::set(&Command::brush, anyBrush(grid)));
 }
 
-rc::Gen<EditCommand> anyMove()
+rc::Gen<Command> anyMove()
 {
-    const rc::Gen<Placement> place = rc::gen::build<Placement>(
-        rc::gen::set(&Placement::kind, rc::gen::weightedElement<Kind>({{12, Kind::Inside},
-                                                                       {1, Kind::Outside},
-                                                                       {1, Kind::Flat},
-                                                                       {3, Kind::Mirrored},
-                                                                       {3, Kind::Turned},
-                                                                       {1, Kind::Nan}})),
-        rc::gen::set(&Placement::at, rc::gen::container<std::array<int, 3>>(anyBetween(-1, 4))));
-    return rc::gen::build<EditCommand>(
+    return rc::gen::build<Command>(
         rc::gen::set(
-            &EditCommand::action,
+            &Command::action,
             rc::gen::weightedElement<Action>(
                 {{3, Action::Add}, {3, Action::Move}, {1, Action::Remove}, {4, Action::Update}, {6, Action::Slice}})),
-        rc::gen::set(&EditCommand::object, anyBetween<std::uint32_t>(0, test::EditMachine::kObjectsMax)),
-        rc::gen::set(&EditCommand::item,
-                     rc::gen::build<test::Item>(
-                         rc::gen::set(&test::Item::mesh, anyBetween<std::uint32_t>(0, DynamicScenery::kMeshCount)),
-                         rc::gen::set(&test::Item::placement, place),
-                         rc::gen::set(&test::Item::bend, anyBetween<std::uint32_t>(0, 4)))));
+        rc::gen::set(&Command::object, anyBetween<std::uint32_t>(0, test::EditMachine::kObjectsMax)),
+        rc::gen::set(&Command::item, test::anyItem()));
 }
 
-rc::Gen<EditCommand> anyCommand(const Grid& grid, bool objects)
+rc::Gen<Command> anyCommand(const Grid& grid, bool objects)
 {
-    return objects ? rc::gen::weightedOneOf<EditCommand>({{2, anyStroke(grid)}, {1, anyMove()}}) : anyStroke(grid);
+    return objects ? rc::gen::weightedOneOf<Command>({{2, anyStroke(grid)}, {1, anyMove()}}) : anyStroke(grid);
 }
 
 DynamicSetting anySetting()
@@ -113,11 +94,11 @@ void play(bool objects, int cases)
         [&]
         {
             const DynamicSetting setting = anySetting();
-            const EditBounds bounds = {*anyBetween<std::size_t>(1, 6),
-                                       *rc::gen::element<std::uint64_t>(0, 100'000, 400'000, 2'000'000, UINT64_MAX)};
-            const auto commands = *rc::gen::container<std::vector<EditCommand>>(anyCommand(setting.grid(), objects));
+            const HistoryBounds bounds = {*anyBetween<std::size_t>(1, 6),
+                                          *rc::gen::element<std::uint64_t>(0, 100'000, 400'000, 2'000'000, UINT64_MAX)};
+            const auto commands = *rc::gen::container<std::vector<Command>>(anyCommand(setting.grid(), objects));
             test::EditMachine machine(device(), setting, bounds, setting.emits ? bright : dark);
-            for (const EditCommand& command : commands)
+            for (const Command& command : commands)
             {
                 machine.run(command);
             }

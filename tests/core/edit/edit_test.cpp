@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 // A brush on voxels, case by case.
+#include "support/dynamic_updates.h"
 #include "support/edit_machine.h"
 #include "support/engine_device.h"
+#include "support/tree_words.h"
 #include "zvo/error.h"
 
 #include <gtest/gtest.h>
@@ -14,9 +16,9 @@ namespace zvo
 namespace
 {
 
+using test::Command;
 using test::DynamicScenery;
 using test::DynamicSetting;
-using test::EditCommand;
 using test::EditMachine;
 
 using test::dab;
@@ -64,9 +66,9 @@ TEST(Edit, SpheresAndBoxesHaveTheVoxelsTheyAreDefinedBy)
     {
         for (const std::uint32_t radius : {0U, 1U, 2U, 7U, gpu::kBrushRadiusMax})
         {
-            EditMachine machine(device(), {.depth = 6, .has_static = false}, {}, scenery());
+            EditMachine machine(device(), {.depth = 6, .has_static = false}, DynamicOptions().edits, scenery());
             machine.run(dab(BrushAction::Fill, {30, 31, 33}, radius, shape));
-            machine.run({EditCommand::Action::Compare});
+            machine.run({Command::Action::Settle});
             const std::uint64_t edge = std::min<std::uint64_t>(2 * radius + 1, 64);
             if (shape == BrushShape::Box)
             {
@@ -85,13 +87,13 @@ TEST(Edit, EverythingCanBeCarvedAwayAndFilledAgain)
 {
     for (const bool compressed : {false, true})
     {
-        EditMachine machine(device(), {.depth = 6, .compressed = compressed}, {}, scenery());
+        EditMachine machine(device(), {.depth = 6, .compressed = compressed}, DynamicOptions().edits, scenery());
         machine.run(dab(BrushAction::Carve, {32, 32, 32}, gpu::kBrushRadiusMax, BrushShape::Box));
-        machine.run({EditCommand::Action::EndStroke});
-        machine.run({EditCommand::Action::Compare});
+        machine.run({Command::Action::EndStroke});
+        machine.run({Command::Action::Settle});
         EXPECT_EQ(machine.octree().edits().voxelCount(), 0U);
         machine.run(dab(BrushAction::Fill, {32, 32, 32}, 5));
-        machine.run({EditCommand::Action::Compare});
+        machine.run({Command::Action::Settle});
         machine.finish();
     }
 }
@@ -116,21 +118,20 @@ TEST(Edit, ADabIsAtMostEightDispatches)
             for (const std::uint32_t radius : {1U, 8U, gpu::kBrushRadiusMax})
             {
                 DynamicScenery small(device(), emits);
-                EditMachine machine(device(), {.depth = 9, .emits = emits, .compressed = compressed}, {}, small);
+                EditMachine machine(device(), {.depth = 9, .emits = emits, .compressed = compressed},
+                                    DynamicOptions().edits, small);
                 DynamicOctree& octree = machine.octree();
                 EXPECT_EQ(octree.tree().emission_words.count() != 0, emits);
                 std::string dump;
                 for (int i = 0; i < 2; ++i) // the first dab makes the region
                 {
                     const Brush brush = {.center = gpu::ivec3(480 + i), .radius = radius};
-                    const std::uint64_t frame = octree.beginFrame();
-                    device().run(
-                        [&](vk::FrameGraph& graph)
-                        {
-                            ASSERT_TRUE(octree.edit(graph, brush));
-                            dump = graph.dump();
-                        });
-                    octree.frameDone(frame);
+                    test::runFrame(device(), octree,
+                                   [&](vk::FrameGraph& graph)
+                                   {
+                                       ASSERT_TRUE(octree.edit(graph, brush));
+                                       dump = graph.dump();
+                                   });
                 }
                 EXPECT_LE(dispatchCount(dump), emits ? 8U : 7U) << dump;
                 EXPECT_EQ(dump.find("pass fill"), std::string::npos) << dump;
@@ -147,24 +148,23 @@ TEST(Edit, ManyStrokesAndAsManyUndosLeaveTheSameBytes)
         EditMachine machine(device(), {.depth = 6, .compressed = compressed}, {.entries_max = kStrokes}, scenery());
         const auto nodes = [&]
         {
-            const std::vector<gpu::Node> all =
-                device().download(machine.octree().tree().nodes, 0, machine.octree().staticRoot() + 1);
-            const auto* words = reinterpret_cast<const gpu::uint*>(all.data());
-            return std::vector<gpu::uint>(words, words + 4 * all.size());
+            std::vector<gpu::uint> words;
+            test::addWords(words, device(), machine.octree().tree().nodes, 0, machine.octree().staticRoot() + 1);
+            return words;
         };
         const std::vector<gpu::uint> before = nodes();
         for (int i = 0; i < kStrokes; ++i)
         {
             const gpu::ivec3 center(i * 7 % 64, i * 11 % 64, i * 13 % 64);
             machine.run(dab(static_cast<BrushAction>(i % 3), center, 3 + i % 5));
-            machine.run({EditCommand::Action::EndStroke});
+            machine.run({Command::Action::EndStroke});
         }
-        machine.run({EditCommand::Action::Compare});
+        machine.run({Command::Action::Settle});
         for (int i = 0; i < kStrokes; ++i)
         {
-            machine.run({EditCommand::Action::Undo});
+            machine.run({Command::Action::Undo});
         }
-        machine.run({EditCommand::Action::Compare});
+        machine.run({Command::Action::Settle});
         EXPECT_EQ(nodes(), before);
         EXPECT_EQ(machine.octree().edits().redoCount(), static_cast<std::size_t>(kStrokes));
     }

@@ -42,10 +42,10 @@ gpu::Node& leaf(TreeData& tree, std::uint32_t number)
     return tree.nodes[tree.levels.back().first_node + number];
 }
 
-// Packs the attributes of a tree, then breaks it.
+// A fault of the tree with packed attributes.
 std::function<void(TreeData&)> packed(AttributeFormat format, const std::function<void(TreeData&)>& break_tree)
 {
-    return [format, break_tree](TreeData& tree)
+    return [=](TreeData& tree)
     {
         tree = packedTree(tree, format);
         break_tree(tree);
@@ -178,14 +178,7 @@ INSTANTIATE_TEST_SUITE_P(Tree, CheckTreeFault, testing::ValuesIn(treeFaults()),
 // 291 random voxels in a grid of depth 5: three levels, an odd number of entries beside leaves.
 TreeData soundTree(bool dag)
 {
-    for (TreeSample& sample : treeSamples())
-    {
-        if (sample.name == (dag ? "random_5_with_attributes_dag" : "random_5_with_attributes"))
-        {
-            return std::move(sample.tree);
-        }
-    }
-    throw std::out_of_range("sample");
+    return treeSample(dag ? "random_5_with_attributes_dag" : "random_5_with_attributes");
 }
 
 TEST_P(CheckTreeFault, IsFound)

@@ -1,12 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Files with single bytes changed and correct checksums: they are refused or hold a valid tree.
 #include "core/file/zvo_file.h"
-#include "core/headless/attribute_packer.h"
-#include "core/headless/compress.h"
-#include "core/headless/pipeline.h"
-#include "core/headless/tree_download.h"
 #include "core/tree/device_tree.h"
 #include "io/gltf/gltf_loader.h"
+#include "runtime/trees.h"
 #include "support/dags.h"
 #include "support/engine_device.h"
 #include "support/scenes.h"
@@ -143,13 +140,10 @@ std::string headerPartAt(std::size_t at)
 
 TEST(ZvoChanges, OfTheHeaderWithItsChecksumsAreRefusedOrMeanWhatTheySay)
 {
-    for (const TreeSample& sample : treeSamples())
+    for (const char* const name : {"random_3_with_attributes", "random_3_with_attributes_block_dag"})
     {
-        if (sample.name != "random_3_with_attributes" && sample.name != "random_3_with_attributes_block_dag")
-        {
-            continue;
-        }
-        Bytes file = zvoBytes(sample.tree);
+        const TreeData sound = treeSample(name);
+        Bytes file = zvoBytes(sound);
         const Bytes before = file;
         const std::size_t head = headBytes(readZvo(file, "a.zvo"));
         std::map<std::string, int> accepted_counts;
@@ -163,7 +157,7 @@ TEST(ZvoChanges, OfTheHeaderWithItsChecksumsAreRefusedOrMeanWhatTheySay)
                 if (tree)
                 {
                     const std::string part = headerPartAt(at);
-                    ASSERT_EQ(treeDifference(*tree, sample.tree), part) << "byte " << at << " ^ " << change;
+                    ASSERT_EQ(treeDifference(*tree, sound), part) << "byte " << at << " ^ " << change;
                     ASSERT_EQ(part == "depth" ? walkFault(*tree) : "", "");
                     ++accepted_counts[part];
                 }

@@ -1,12 +1,9 @@
 // SPDX-License-Identifier: MIT
 // A file has the same bytes for any order of the scene's triangles and instances, in each format of attributes.
 #include "core/file/zvo_file.h"
-#include "core/headless/attribute_packer.h"
-#include "core/headless/compress.h"
-#include "core/headless/pipeline.h"
-#include "core/headless/tiled_build.h"
-#include "core/headless/tree_download.h"
 #include "io/file/sha256.h"
+#include "runtime/tiled_build.h"
+#include "runtime/trees.h"
 #include "support/engine_device.h"
 #include "support/materials_scene.h"
 

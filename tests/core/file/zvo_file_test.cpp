@@ -48,18 +48,6 @@ template <typename T> T at(const Bytes& file, std::size_t offset)
     return value;
 }
 
-TreeData sampleNamed(const std::string& name)
-{
-    for (TreeSample& sample : treeSamples())
-    {
-        if (sample.name == name)
-        {
-            return std::move(sample.tree);
-        }
-    }
-    throw std::out_of_range(name);
-}
-
 TEST(ZvoFile, TreesComeBackAndGiveTheSameBytesAgain)
 {
     const TempDir dir;
@@ -80,7 +68,7 @@ TEST(ZvoFile, TreesComeBackAndGiveTheSameBytesAgain)
 // Reads byte by byte as the document says, without the program's structs.
 TEST(ZvoFile, BytesStandWhereTheDocumentSays)
 {
-    const TreeData tree = sampleNamed("random_5_with_attributes_dag");
+    const TreeData tree = treeSample("random_5_with_attributes_dag");
     const Bytes file = zvoBytes(tree);
     EXPECT_EQ(std::memcmp(file.data(), "\x8aZVO\r\n\x1a\n\x04\x03\x02\x01", 12), 0);
     EXPECT_EQ(at<std::uint16_t>(file, 12), 1);
@@ -128,7 +116,7 @@ TEST(ZvoFile, EveryChangeOfAByteIsRefused)
          {"random_3_with_attributes", "random_3_with_attributes_dag", "random_3_with_attributes_4",
           "random_3_with_attributes_block", "one_voxel", "nothing"})
     {
-        const Bytes file = zvoBytes(sampleNamed(name));
+        const Bytes file = zvoBytes(treeSample(name));
         for (std::size_t i = sweep.first(); i < file.size(); i += sweep.step())
         {
             const std::uint32_t step = i < 1024 ? 1 : 51; // all changes in the header and the table
@@ -146,7 +134,7 @@ TEST(ZvoFile, EveryTruncationIsRefused)
 {
     for (const char* const name : {"random_3_with_attributes", "random_4_with_attributes_dag"})
     {
-        const Bytes file = zvoBytes(sampleNamed(name));
+        const Bytes file = zvoBytes(treeSample(name));
         for (std::size_t size = 0; size < file.size(); ++size)
         {
             const std::string message = refusalOf(std::span(file).first(size));
@@ -355,7 +343,7 @@ INSTANTIATE_TEST_SUITE_P(File, ZvoFault, testing::ValuesIn(fileFaults()),
 
 TEST_P(ZvoFault, HasItsOwnMessage)
 {
-    Bytes file = zvoBytes(sampleNamed(GetParam().sample));
+    Bytes file = zvoBytes(treeSample(GetParam().sample));
     ASSERT_EQ(refusalOf(file), "");
     GetParam().break_file(file);
     const std::string message = refusalOf(file);
@@ -364,7 +352,7 @@ TEST_P(ZvoFault, HasItsOwnMessage)
 
 TEST(ZvoFile, OfALaterMinorVersionIsReadWithoutWhatIsNew)
 {
-    const TreeData tree = sampleNamed("random_5_with_attributes_dag");
+    const TreeData tree = treeSample("random_5_with_attributes_dag");
     Bytes file = zvoBytes(tree);
     change(
         [](ZvoParts& parts)

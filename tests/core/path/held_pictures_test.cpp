@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Path-traced pictures of whole scenes, compared with those that are held in tests/pictures.
-#include "core/headless/pipeline.h"
 #include "core/path/develop.h"
 #include "core/path/path_tracer.h"
 #include "io/gltf/gltf_loader.h"
+#include "runtime/trees.h"
 #include "support/engine_device.h"
 #include "support/held_picture.h"
 #include "support/path_pictures.h"

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Path tracing at its limits: no voxels, one voxel, no light, deep grids, cameras in odd places, scenes of all kinds.
 #include "core/base/read_file.h"
-#include "core/headless/pipeline.h"
 #include "core/path/path_tracer.h"
 #include "io/image/hdr_image_io.h"
 #include "io/scene/animated_scene.h"
+#include "runtime/trees.h"
 #include "support/engine_device.h"
 #include "support/lit_voxels.h"
 #include "support/path_pictures.h"

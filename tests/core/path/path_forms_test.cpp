@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Both forms of path tracing, stages and one kernel, make the same pictures bit for bit.
-#include "core/headless/pipeline.h"
 #include "core/path/path_tracer.h"
 #include "core/upload/gpu_scene.h"
+#include "runtime/trees.h"
 #include "support/engine_device.h"
 #include "support/lit_voxels.h"
 #include "support/same_bytes.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // A small lamp in a large dark hall: lights are found where there are few of them among many voxels.
-#include "core/headless/pipeline.h"
 #include "core/path/path_tracer.h"
+#include "runtime/trees.h"
 #include "support/engine_device.h"
 #include "support/path_pictures.h"
 #include "support/scenes.h"

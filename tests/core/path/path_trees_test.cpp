@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Path tracing through octrees, DAGs, overlays and packed attributes: the same voxels look the same.
 #include "core/dynamic/dynamic_octree.h"
-#include "core/headless/attribute_packer.h"
-#include "core/headless/compress.h"
-#include "core/headless/pipeline.h"
 #include "core/path/path_tracer.h"
 #include "core/scene/animation.h"
+#include "runtime/trees.h"
 #include "support/dynamic_updates.h"
 #include "support/engine_device.h"
 #include "support/octree_contents.h"

@@ -3,9 +3,8 @@
 #include "core/tree/device_tree.h"
 
 #include "core/base/kernels.h"
-#include "core/headless/compress.h"
-#include "core/headless/pipeline.h"
 #include "io/gltf/gltf_loader.h"
+#include "runtime/trees.h"
 #include "support/dag_compare.h"
 #include "support/dags.h"
 #include "support/device.h"

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Voxels of a scene with inverted hulls show what a rasterizer shows that culls back faces.
-#include "core/headless/pipeline.h"
 #include "core/upload/gpu_scene.h"
 #include "io/scene/hulls.h"
+#include "runtime/trees.h"
 #include "support/engine_device.h"
 #include "support/pictures.h"
 #include "support/toon_scene.h"

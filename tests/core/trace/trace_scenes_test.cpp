@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Rays through the octrees of whole scenes against the reference, bit for bit.
-#include "core/headless/pipeline.h"
 #include "io/gltf/gltf_loader.h"
+#include "runtime/trees.h"
 #include "support/engine_device.h"
 #include "support/param_names.h"
 #include "support/scenes.h"

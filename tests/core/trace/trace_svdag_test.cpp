@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // A DAG looks like the octree that it was made from.
-#include "core/headless/pipeline.h"
 #include "core/trace/trace.h"
 #include "io/gltf/gltf_loader.h"
 #include "oracle/morton.h"
+#include "runtime/trees.h"
 #include "support/dags.h"
 #include "support/engine_device.h"
 #include "support/param_names.h"

@@ -2,9 +2,8 @@
 #include "core/tree/tree_data.h"
 
 #include "core/file/tree_check.h"
-#include "core/headless/pipeline.h"
-#include "core/headless/tree_download.h"
 #include "runtime/octree_sha256.h"
+#include "runtime/trees.h"
 #include "support/engine_device.h"
 #include "support/materials_scene.h"
 #include "support/tree_samples.h"

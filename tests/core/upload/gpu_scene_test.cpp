@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "core/upload/gpu_scene.h"
 
-#include "core/headless/pipeline.h"
 #include "core/upload/draws.h"
+#include "runtime/trees.h"
 #include "support/engine_device.h"
 #include "support/moved_scene.h"
 #include "support/octree_access.h"

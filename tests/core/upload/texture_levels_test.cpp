@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "core/upload/texture_levels.h"
 
-#include "core/headless/pipeline.h"
 #include "core/upload/gpu_scene.h"
 #include "oracle/texture.h"
+#include "runtime/trees.h"
 #include "support/engine_device.h"
 #include "support/errors.h"
 #include "support/materials_scene.h"

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 // Colours, normals and emission of voxels and inner nodes.
 #include "core/base/morton.h"
-#include "core/headless/pipeline.h"
 #include "core/upload/texture_pool.h"
 #include "io/gltf/gltf_loader.h"
 #include "oracle/attributes.h"
 #include "runtime/octree_sha256.h"
+#include "runtime/trees.h"
 #include "support/engine_device.h"
 #include "support/octree_access.h"
 #include "support/param_names.h"

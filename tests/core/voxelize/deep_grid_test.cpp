@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Sparse grids of depth 13 to 17, with brick keys of two words, lattice coordinates up to 2^25, and long rows.
-#include "core/headless/pipeline.h"
 #include "oracle/morton.h"
 #include "runtime/octree_sha256.h"
+#include "runtime/trees.h"
 #include "support/engine_device.h"
 #include "support/octree_access.h"
 #include "support/param_names.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Scenes of many draws.
-#include "core/headless/pipeline.h"
 #include "runtime/octree_sha256.h"
+#include "runtime/trees.h"
 #include "support/engine_device.h"
 #include "support/scenes.h"
 

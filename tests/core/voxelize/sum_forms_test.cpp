@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Fragments are added to the sums of voxels in several forms, and every form leaves the same bytes.
-#include "core/headless/pipeline.h"
 #include "io/gltf/gltf_loader.h"
 #include "runtime/octree_sha256.h"
+#include "runtime/trees.h"
 #include "support/engine_device.h"
 #include "support/materials_scene.h"
 #include "support/param_names.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Tiles have the same voxels and attributes as the whole grid, bit for bit.
-#include "core/headless/pipeline.h"
+#include "runtime/trees.h"
 #include "support/engine_device.h"
 #include "support/materials_scene.h"
 #include "support/morton_index.h"

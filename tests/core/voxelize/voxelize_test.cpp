@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // The voxels of the device against the exact oracle, bit for bit.
-#include "core/headless/pipeline.h"
 #include "io/gltf/gltf_loader.h"
 #include "oracle/voxelizer.h"
 #include "runtime/octree_sha256.h"
+#include "runtime/trees.h"
 #include "support/engine_device.h"
 #include "support/materials_scene.h"
 #include "support/param_names.h"

@@ -3,11 +3,11 @@
 // scene of 512^3 voxels, of one material class, is built, compressed, updated and traced.
 #include "core/base/kernels.h"
 #include "core/dynamic/dynamic_octree.h"
-#include "core/headless/pipeline.h"
 #include "core/octree/octree_builder.h"
 #include "core/scene/camera.h"
 #include "core/svdag/svdag_builder.h"
 #include "core/trace/tree_tracer.h"
+#include "runtime/trees.h"
 #include "support/device.h"
 #include "support/scenes.h"
 

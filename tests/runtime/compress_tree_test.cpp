@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
 // DAGs of octrees in the host's memory.
 #include "core/file/tree_check.h"
-#include "core/headless/compress.h"
-#include "core/headless/tree_download.h"
+#include "runtime/trees.h"
 #include "support/engine_device.h"
 #include "support/tree_samples.h"
 

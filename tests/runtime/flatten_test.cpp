@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // What is shown, copied to an octree of its own.
-#include "core/headless/flatten.h"
+#include "runtime/flatten.h"
 
 #include "core/file/tree_check.h"
-#include "core/headless/tree_download.h"
+#include "runtime/trees.h"
 #include "support/dynamic_scenery.h"
 #include "support/dynamic_updates.h"
 #include "support/edit_machine.h"
@@ -79,16 +79,16 @@ TEST(FlattenTree, OfAnEditedTreeHasWhatTheModelHas)
     for (const DynamicSetting& setting : settings())
     {
         SCOPED_TRACE(::testing::PrintToString(setting));
-        test::EditMachine machine(device(), setting, {}, scenery);
+        test::EditMachine machine(device(), setting, DynamicOptions().edits, scenery);
         const auto edge = static_cast<int>(setting.grid().resolution());
         for (const BrushAction action : {BrushAction::Carve, BrushAction::Fill, BrushAction::Paint})
         {
             const int at = edge / 2 + static_cast<int>(action) * edge / 8;
             machine.run(
-                {test::EditCommand::Action::Dab,
+                {test::Command::Action::Dab,
                  {BrushShape::Sphere, action, gpu::ivec3(at), 5 + static_cast<std::uint32_t>(action), 0x40FF20}});
         }
-        machine.run({test::EditCommand::Action::Compare, {}});
+        machine.run({test::Command::Action::Settle, {}});
         const TreeData flat = flattenTree(device(), machine.octree().tree());
         EXPECT_EQ(checkTree(flat), std::nullopt);
         const DeviceTree again = uploadTree(device(), flat);

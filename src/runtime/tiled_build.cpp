@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "core/headless/tiled_build.h"
+#include "runtime/tiled_build.h"
 
 #include "core/base/morton.h"
-#include "core/headless/attribute_packer.h"
-#include "core/headless/compress.h"
-#include "core/headless/pipeline.h"
-#include "core/headless/svdag_forest.h"
-#include "core/headless/tile_nodes.h"
-#include "core/headless/tree_download.h"
 #include "core/tree/tree_limits.h"
+#include "runtime/attribute_packer.h"
+#include "runtime/svdag_forest.h"
+#include "runtime/tile_nodes.h"
+#include "runtime/trees.h"
 #include "zvo/error.h"
 
 #include <fmt/format.h>
@@ -75,13 +73,7 @@ struct Part
 {
     DeviceTree dag; // without attributes
     PartAttributes attributes;
-};
-
-// A tile that was built as a whole.
-struct Tile
-{
-    Part part;
-    std::vector<gpu::Attribute> voxel_attributes;
+    std::vector<gpu::Attribute> voxel_attributes; // of a part that was just built whole
 };
 
 class TiledBuilder
@@ -96,7 +88,7 @@ public:
 
 private:
     std::optional<Part> buildPart(std::uint32_t depth, std::uint64_t code);
-    std::optional<Tile> buildWhole(std::uint32_t depth, std::uint64_t code);
+    std::optional<Part> buildWhole(std::uint32_t depth, std::uint64_t code);
     std::optional<Part> buildTiles(std::uint32_t depth, std::uint64_t code, std::uint32_t tile_depth);
     void finishAttributes(PartAttributes& attributes, TreeData& tree);
 
@@ -137,10 +129,10 @@ std::optional<Part> TiledBuilder::buildPart(std::uint32_t depth, std::uint64_t c
     {
         return buildTiles(depth, code, tile_depth);
     }
-    std::optional<Tile> tile;
+    std::optional<Part> part;
     try
     {
-        tile = buildWhole(depth, code);
+        part = buildWhole(depth, code);
     }
     catch (const Error& error)
     {
@@ -152,15 +144,14 @@ std::optional<Part> TiledBuilder::buildPart(std::uint32_t depth, std::uint64_t c
         m_capacities.erase(depth);
         return buildTiles(depth, code, tile_depth);
     }
-    if (!tile)
+    if (part)
     {
-        return std::nullopt;
+        m_voxels.append(std::move(part->voxel_attributes)); // not before all of the part is there
     }
-    m_voxels.append(std::move(tile->voxel_attributes)); // not before all of the tile is there
-    return std::move(tile->part);
+    return part;
 }
 
-std::optional<Tile> TiledBuilder::buildWhole(std::uint32_t depth, std::uint64_t code)
+std::optional<Part> TiledBuilder::buildWhole(std::uint32_t depth, std::uint64_t code)
 {
     const auto last = m_capacities.find(depth);
     const VoxelizeCapacities capacities =
@@ -181,10 +172,9 @@ std::optional<Tile> TiledBuilder::buildWhole(std::uint32_t depth, std::uint64_t 
     m_result.retry_count += compressed.retry_count;
     append(m_result.passes, compressed.passes);
     ++m_result.tile_count;
-    Tile tile;
-    Part& part = tile.part;
+    Part part;
     DeviceTree& tree = compressed.dag;
-    tile.voxel_attributes = m_device.download(tree.voxel_attributes);
+    part.voxel_attributes = m_device.download(tree.voxel_attributes);
     part.attributes.voxel_count = tree.voxel_count;
     part.attributes.octree_node_count = tree.octreeNodeCount();
     part.attributes.node_attributes = m_device.download(tree.node_attributes);
@@ -198,7 +188,7 @@ std::optional<Tile> TiledBuilder::buildWhole(std::uint32_t depth, std::uint64_t 
     tree.emission_words = {};
     tree.emission = {};
     part.dag = std::move(compressed.dag);
-    return tile;
+    return part;
 }
 
 std::optional<Part> TiledBuilder::buildTiles(std::uint32_t depth, std::uint64_t code, std::uint32_t tile_depth)
@@ -246,7 +236,7 @@ std::optional<Part> TiledBuilder::buildTiles(std::uint32_t depth, std::uint64_t 
     if (hasAttributes())
     {
         requireIndexable(0, std::max(part.attributes.voxel_count, part.attributes.octree_node_count));
-        part.attributes.node_attributes = joinNodes(m_device, m_scene.uploaded(), m_grid, top_levels, tiles);
+        part.attributes.node_attributes = joinNodes(m_device, m_scene.uploaded(), m_grid, tile_depth, tiles);
     }
     part.dag = forest.finish(hasAttributes() && depth == m_grid.depth);
     append(m_result.passes, forest.passes());

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "core/headless/flatten.h"
+#include "runtime/flatten.h"
 
 #include "core/base/divide_up.h"
 #include "core/tree/list_packing.h"

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 // Work that is split over many submissions gives the same bytes.
 #include "core/base/kernels.h"
-#include "core/headless/pipeline.h"
 #include "core/scene/camera.h"
 #include "core/trace/trace.h"
 #include "io/gltf/gltf_loader.h"
 #include "runtime/octree_sha256.h"
+#include "runtime/trees.h"
 #include "support/device.h"
 #include "support/materials_scene.h"
 #include "support/scenes.h"

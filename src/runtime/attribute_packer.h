@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: MIT
-// Packing attributes into fewer bytes (docs/attributes.md), waiting for the device.
 #pragma once
 
 #include "core/tree/device_tree.h"
@@ -11,11 +10,8 @@
 namespace zvo
 {
 
-/// Replaces the attributes of tree by the same in a packed format (TreePacker), and waits. Returns the times of the
-/// passes. Throws Error{Memory} when the device's budget does not suffice.
-std::vector<vk::PassTime> packTree(vk::HeadlessDevice& device, AttributeFormat format, DeviceTree& tree);
-
-/// Packs attributes that come to the host piece by piece. The result is that of packing all of them at once.
+/// Packs attributes (docs/attributes.md) that come to the host piece by piece. The result is that of packing all of
+/// them at once.
 class AttributePacker
 {
 public:

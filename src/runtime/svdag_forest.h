@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/tree/device_tree.h"
+#include "core/tree/tree_data.h"
 #include "vk/headless.h"
 
 #include <cstddef>
@@ -21,8 +22,8 @@ public:
     SvdagForest(vk::HeadlessDevice& device, const Grid& grid, std::uint32_t tile_depth);
 
     /// Adds the DAG of the whole grid in which only one tile has voxels. code: the tile's Morton code among the tiles;
-    /// it must be greater than those before. Takes over the nodes of the DAG and drops its attributes. Throws
-    /// Error{Memory} when the device's budget does not suffice.
+    /// it must be greater than those before. dag: without attributes. Throws Error{Memory} when the device's budget
+    /// does not suffice.
     void add(std::uint64_t code, DeviceTree dag);
 
     [[nodiscard]] bool isEmpty() const { return m_parts.empty(); }
@@ -32,7 +33,7 @@ public:
     DeviceTree finish(bool ranks);
 
     /// Number of nodes above the roots of the tiles in the octree of all tiles.
-    [[nodiscard]] std::uint64_t topNodeCount() const;
+    [[nodiscard]] std::uint64_t topNodeCount() const { return top().nodes.size(); }
 
     /// Times of the passes that have merged tiles so far.
     [[nodiscard]] const std::vector<vk::PassTime>& passes() const { return m_passes; }
@@ -50,13 +51,14 @@ private:
         std::vector<Tile> tiles;
     };
 
-    [[nodiscard]] std::vector<std::uint64_t> tileCodes() const; // ascending
+    [[nodiscard]] TreeData top() const;
     void merge(bool ranks);
     [[nodiscard]] Part joined();
     void learnRoots(Part& part) const;
 
     vk::HeadlessDevice& m_device;
     Grid m_grid;
+    std::uint32_t m_tile_depth;
     std::size_t m_top_levels; // levels of nodes above the tiles' roots
     std::vector<Part> m_parts;
     std::vector<vk::PassTime> m_passes;

@@ -1,14 +1,16 @@
 // SPDX-License-Identifier: MIT
-#include "core/headless/svdag_forest.h"
+#include "runtime/svdag_forest.h"
 
 #include "core/base/divide_up.h"
-#include "core/headless/compress.h"
+#include "runtime/tile_nodes.h"
+#include "runtime/trees.h"
 #include "svdag/svdag.h"
 #include "zvo/error.h"
 
 #include <algorithm>
 #include <bit>
 #include <cassert>
+#include <iterator>
 #include <span>
 #include <utility>
 
@@ -22,69 +24,23 @@ constexpr std::uint32_t kJoinedPerWord = 2;                                   //
 constexpr std::uint64_t kNodeEntries = sizeof(gpu::Node) / sizeof(gpu::uint); // in the room of a node, then
 constexpr std::uint64_t kUnmergedMin = 1 << 16; // nodes that may stand unmerged, whatever the rest has
 
-std::uint64_t maskOf(const gpu::Node& node)
+// Gives the nodes of an octree of tiles lists, as a DAG has them. roots: numbers of the tiles' roots. first_entry:
+// index of the first entry of all lists.
+void makeLists(TreeData& top, std::span<const std::uint32_t> roots, std::uint64_t first_entry)
 {
-    return node.mask_lo | std::uint64_t{node.mask_hi} << 32;
-}
-
-// The nodes above the roots of tiles, and their lists.
-struct Top
-{
-    std::vector<DeviceTree::Level> levels;
-    std::vector<gpu::Node> nodes;
-    std::vector<gpu::uint> lists;
-};
-
-// The codes of the parents of the nodes with these codes, both ascending.
-std::vector<std::uint64_t> parentCodes(std::span<const std::uint64_t> codes)
-{
-    std::vector<std::uint64_t> parents;
-    for (const std::uint64_t code : codes)
+    for (std::uint32_t i = 0; i < top.nodes.size(); ++i)
     {
-        if (parents.empty() || parents.back() != code >> kCellBits)
+        gpu::Node& node = top.nodes[i];
+        const bool is_lowest = i >= top.levels.back().first_node;
+        const auto base = static_cast<std::uint32_t>(first_entry + top.lists.size());
+        const auto child_count = static_cast<std::uint32_t>(std::popcount(cellMask(node)));
+        for (std::uint32_t child = node.base_lo; child < node.base_lo + child_count; ++child)
         {
-            parents.push_back(code >> kCellBits);
+            top.lists.push_back(is_lowest ? roots[child] : child);
         }
+        node.base_lo = gpu::kChildList | base;
+        node.base_hi = gpu::kChildList | (base + static_cast<std::uint32_t>(std::popcount(node.mask_lo)));
     }
-    return parents;
-}
-
-// roots: numbers of the tiles' roots. first_entry: index of the lists' first one.
-Top topOf(std::span<const std::uint64_t> codes, std::span<const std::uint32_t> roots, std::size_t level_count,
-          std::uint64_t first_entry)
-{
-    std::vector<std::vector<std::uint64_t>> codes_of = {{codes.begin(), codes.end()}}; // by level, the tiles first
-    for (std::size_t i = 0; i < level_count; ++i)
-    {
-        codes_of.push_back(parentCodes(codes_of.back()));
-    }
-    std::ranges::reverse(codes_of);
-    assert(codes_of.front().size() == 1);
-    Top top;
-    for (std::size_t level = 0; level < level_count; ++level)
-    {
-        top.levels.push_back(
-            {static_cast<std::uint32_t>(top.nodes.size()), static_cast<std::uint32_t>(codes_of[level].size())});
-        const std::size_t first_child = top.nodes.size() + codes_of[level].size();
-        const std::vector<std::uint64_t>& children = codes_of[level + 1];
-        std::size_t child = 0;
-        for (const std::uint64_t code : codes_of[level])
-        {
-            std::uint64_t mask = 0;
-            const auto base = static_cast<std::uint32_t>(first_entry + top.lists.size());
-            for (; child < children.size() && children[child] >> kCellBits == code; ++child)
-            {
-                mask |= std::uint64_t{1} << (children[child] & ((1U << kCellBits) - 1));
-                top.lists.push_back(level + 1 == level_count ? roots[child]
-                                                             : static_cast<std::uint32_t>(first_child + child));
-            }
-            const auto low = static_cast<std::uint32_t>(mask);
-            const auto in_low = static_cast<std::uint32_t>(std::popcount(low));
-            top.nodes.push_back({low, gpu::kChildList | base, static_cast<std::uint32_t>(mask >> 32),
-                                 gpu::kChildList | (base + in_low)});
-        }
-    }
-    return top;
 }
 
 // The position of a part in the common pool.
@@ -102,18 +58,15 @@ struct JoinedLayout
     ListPacking packing;
 };
 
-// codes: of the tiles' roots, which are at level top_levels. Throws Error{Memory} if 31-bit numbers do not suffice.
-JoinedLayout layoutOf(std::span<const DeviceTree* const> dags, std::span<const std::uint64_t> codes,
-                      std::size_t top_levels)
+// top: the octree of the tiles. Throws Error{Memory} if 31-bit numbers do not suffice.
+JoinedLayout layoutOf(std::span<const DeviceTree* const> dags, const TreeData& top)
 {
-    const std::vector<std::uint32_t> no_roots(codes.size());
-    const Top top = topOf(codes, no_roots, top_levels, 0); // for its size
     const std::size_t level_count = dags.front()->levels.size();
     JoinedLayout layout;
     layout.parts.resize(dags.size());
     layout.levels = top.levels;
     std::uint64_t node_count = top.nodes.size();
-    for (std::size_t level = top_levels; level < level_count; ++level)
+    for (std::size_t level = top.levels.size(); level < level_count; ++level)
     {
         const std::uint64_t first_node = node_count;
         for (std::size_t i = 0; i < dags.size(); ++i)
@@ -125,7 +78,8 @@ JoinedLayout layoutOf(std::span<const DeviceTree* const> dags, std::span<const s
         layout.levels.push_back(
             {static_cast<std::uint32_t>(first_node), static_cast<std::uint32_t>(node_count - first_node)});
     }
-    std::uint64_t entry_count = divideUp(top.lists.size(), kNodeEntries) * kNodeEntries;
+    const std::uint64_t top_entries = top.nodes.size() - 1 + top.voxel_count; // one names a node or tile
+    std::uint64_t entry_count = divideUp(top_entries, kNodeEntries) * kNodeEntries;
     for (std::size_t i = 0; i < dags.size(); ++i)
     {
         layout.parts[i].first_entry = node_count * kNodeEntries + entry_count;
@@ -141,7 +95,7 @@ JoinedLayout layoutOf(std::span<const DeviceTree* const> dags, std::span<const s
 }
 
 // Allocates the common pool and uploads the nodes and lists above the tiles' roots.
-void makePool(vk::HeadlessDevice& device, const Top& top, const ListPacking& packing, DeviceTree& tree)
+void makePool(vk::HeadlessDevice& device, const TreeData& top, const ListPacking& packing, DeviceTree& tree)
 {
     device.device().memory().require(packing.poolNodes() * sizeof(gpu::Node), "joining the tiles");
     tree.nodes = {device.device(), "svdag/forest", packing.poolNodes()};
@@ -189,7 +143,7 @@ void appendParts(vk::FrameGraph& graph, std::span<const DeviceTree* const> dags,
 } // namespace
 
 SvdagForest::SvdagForest(vk::HeadlessDevice& device, const Grid& grid, std::uint32_t tile_depth)
-    : m_device(device), m_grid(grid), m_top_levels(grid.nodeLevels() - tile_depth / 2)
+    : m_device(device), m_grid(grid), m_tile_depth(tile_depth), m_top_levels(grid.nodeLevels() - tile_depth / 2)
 {
     assert(tile_depth % 2 == 0 && tile_depth < grid.depth);
 }
@@ -197,10 +151,6 @@ SvdagForest::SvdagForest(vk::HeadlessDevice& device, const Grid& grid, std::uint
 void SvdagForest::add(std::uint64_t code, DeviceTree dag)
 {
     assert(m_parts.empty() || m_parts.back().tiles.back().code < code);
-    dag.voxel_attributes = {};
-    dag.node_attributes = {};
-    dag.emission_words = {};
-    dag.emission = {};
     dag.lists.before = {};
     dag.lists.voxels_before_leaf = {};
     Part part;
@@ -220,29 +170,15 @@ void SvdagForest::add(std::uint64_t code, DeviceTree dag)
     }
 }
 
-std::vector<std::uint64_t> SvdagForest::tileCodes() const
+// The nodes above the roots of the tiles.
+TreeData SvdagForest::top() const
 {
     std::vector<std::uint64_t> codes;
     for (const Part& part : m_parts)
     {
-        for (const Tile& tile : part.tiles)
-        {
-            codes.push_back(tile.code);
-        }
+        std::ranges::transform(part.tiles, std::back_inserter(codes), &Tile::code);
     }
-    return codes;
-}
-
-std::uint64_t SvdagForest::topNodeCount() const
-{
-    std::vector<std::uint64_t> codes = tileCodes();
-    std::uint64_t count = 0;
-    for (std::size_t level = 0; level < m_top_levels; ++level)
-    {
-        codes = parentCodes(codes);
-        count += codes.size();
-    }
-    return count;
+    return octreeOfTiles(m_grid, m_tile_depth, codes);
 }
 
 // Puts all parts into one pool, below common nodes. Equal nodes of different parts stay separate.
@@ -253,8 +189,8 @@ SvdagForest::Part SvdagForest::joined()
     {
         dags.push_back(&part.dag);
     }
-    const std::vector<std::uint64_t> codes = tileCodes();
-    const JoinedLayout layout = layoutOf(dags, codes, m_top_levels);
+    TreeData above = top();
+    const JoinedLayout layout = layoutOf(dags, above);
 
     Part all;
     std::vector<std::uint32_t> roots;
@@ -268,7 +204,7 @@ SvdagForest::Part SvdagForest::joined()
             all.tiles.push_back({tile.code, roots.back()});
         }
     }
-    const Top top = topOf(codes, roots, m_top_levels, layout.packing.firstEntry());
+    makeLists(above, roots, layout.packing.firstEntry());
 
     DeviceTree& tree = all.dag;
     tree.structure = TreeStructure::Svdag;
@@ -277,7 +213,7 @@ SvdagForest::Part SvdagForest::joined()
     tree.levels = layout.levels;
     tree.lists.entry_count = layout.packing.entry_count;
     tree.lists.entries_per_word = layout.packing.per_word;
-    makePool(m_device, top, layout.packing, tree);
+    makePool(m_device, above, layout.packing, tree);
     const std::vector<vk::PassTime> passes =
         m_device.run([&](vk::FrameGraph& graph) { appendParts(graph, dags, m_top_levels, layout, tree); });
     m_passes.insert(m_passes.end(), passes.begin(), passes.end());
@@ -292,14 +228,15 @@ void SvdagForest::learnRoots(Part& part) const
     std::uint64_t entry_count = 0;
     for (const gpu::Node& node : nodes)
     {
-        entry_count += static_cast<std::uint64_t>(std::popcount(maskOf(node)));
+        entry_count += static_cast<std::uint64_t>(std::popcount(cellMask(node)));
     }
     const ListPacking packing = {tree.node_count, entry_count, tree.lists.entries_per_word};
     const std::vector<gpu::uint> lists =
         nodesToEntries(m_device.download(tree.nodes, tree.node_count, packing.poolNodes() - tree.node_count), packing);
     const auto childOf = [&](const gpu::Node& node, std::uint64_t cell)
     {
-        const auto before = static_cast<std::uint64_t>(std::popcount(maskOf(node) & ((std::uint64_t{1} << cell) - 1)));
+        const auto before =
+            static_cast<std::uint64_t>(std::popcount(cellMask(node) & ((std::uint64_t{1} << cell) - 1)));
         return lists[(node.base_lo & ~gpu::kChildList) - packing.firstEntry() + before];
     };
     for (Tile& tile : part.tiles)

@@ -1,12 +1,9 @@
 // SPDX-License-Identifier: MIT
 // A DAG that is built tile by tile equals the DAG of the whole: nodes, lists, attributes, averages, emission.
 #include "core/base/kernels.h"
-#include "core/headless/attribute_packer.h"
-#include "core/headless/compress.h"
-#include "core/headless/pipeline.h"
-#include "core/headless/tiled_build.h"
-#include "core/headless/tree_download.h"
 #include "core/tree/device_tree.h"
+#include "runtime/tiled_build.h"
+#include "runtime/trees.h"
 #include "support/device.h"
 #include "support/engine_device.h"
 #include "support/materials_scene.h"
@@ -16,8 +13,7 @@
 
 #include <gtest/gtest.h>
 
-#include <cstring>
-#include <vector>
+#include <cstdint>
 
 namespace zvo
 {

@@ -2,10 +2,10 @@
 // Buffers that are too small, and memory that does not suffice. In the end there are the same bytes, or one clear
 // error.
 #include "core/base/kernels.h"
-#include "core/headless/pipeline.h"
 #include "core/scene/camera.h"
 #include "io/gltf/gltf_loader.h"
 #include "runtime/octree_sha256.h"
+#include "runtime/trees.h"
 #include "support/device.h"
 #include "support/engine_device.h"
 #include "support/errors.h"

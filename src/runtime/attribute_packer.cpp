@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
-#include "core/headless/attribute_packer.h"
+#include "runtime/attribute_packer.h"
 
 #include "attributes/attributes.h"
 #include "core/attributes/attribute_pack.h"
-#include "core/headless/run_job.h"
 
 #include <algorithm>
 #include <iterator>
@@ -21,11 +20,6 @@ constexpr std::uint64_t kEnough = 1U << 16;     // what waits for the next piece
 constexpr std::uint64_t kRoomPerAttribute = 32; // bytes: itself, its words, and as much for copying
 
 } // namespace
-
-std::vector<vk::PassTime> packTree(vk::HeadlessDevice& device, AttributeFormat format, DeviceTree& tree)
-{
-    return runJob(device, TreePacker(device.device(), format, tree));
-}
 
 void AttributePacker::append(std::vector<gpu::Attribute>&& more)
 {
