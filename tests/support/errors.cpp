@@ -8,6 +8,20 @@
 namespace zvo::test
 {
 
+namespace
+{
+
+/// The message of an error, which must have that code and one line.
+std::string checkedMessage(const Error& error, ErrorCode expected)
+{
+    const std::string message = error.what();
+    EXPECT_EQ(error.code(), expected) << message;
+    EXPECT_EQ(message.find_first_of("\n\r\t"), std::string::npos) << message;
+    return message;
+}
+
+} // namespace
+
 std::string messageOf(const std::function<void()>& action, ErrorCode expected)
 {
     try
@@ -16,10 +30,7 @@ std::string messageOf(const std::function<void()>& action, ErrorCode expected)
     }
     catch (const Error& error)
     {
-        const std::string message = error.what();
-        EXPECT_EQ(error.code(), expected) << message;
-        EXPECT_EQ(message.find('\n'), std::string::npos) << message;
-        return message;
+        return checkedMessage(error, expected);
     }
     ADD_FAILURE() << "nothing was thrown";
     return {};
@@ -33,12 +44,32 @@ std::uint64_t bytesNeeded(const std::string& message)
     return matches ? std::stoull(found[1]) : 0;
 }
 
-void expectParts(const std::string& text, std::initializer_list<const char*> parts)
+bool loadsOrIsRefused(const std::function<void()>& load)
 {
-    for (const char* part : parts)
+    try
     {
-        EXPECT_NE(text.find(part), std::string::npos) << part << " is not in: " << text;
+        load();
+        return true;
     }
+    catch (const Error& error)
+    {
+        checkedMessage(error, ErrorCode::Input);
+        return false;
+    }
+}
+
+void expectParts(const std::string& text, std::initializer_list<std::string> parts)
+{
+    for (const std::string& part : parts)
+    {
+        EXPECT_NE(text.find(part), std::string::npos) << '"' << part << "\" is not in: " << text;
+    }
+}
+
+void expectOneLine(const std::vector<std::string>& lines, std::initializer_list<std::string> parts)
+{
+    EXPECT_EQ(lines.size(), 1U) << testing::PrintToString(lines);
+    expectParts(lines.empty() ? "" : lines.front(), parts);
 }
 
 } // namespace zvo::test

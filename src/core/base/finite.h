@@ -20,4 +20,11 @@ inline bool isFinite(const glm::mat4& matrix)
            isFinite(glm::vec3(matrix[3]));
 }
 
+/// vector scaled to length 1; 0 where it has no direction.
+inline glm::vec3 unitOrZero(const glm::dvec3& vector)
+{
+    const double length = std::sqrt(glm::dot(vector, vector));
+    return length > 0.0 && std::isfinite(length) ? glm::vec3(vector / length) : glm::vec3(0.0F);
+}
+
 } // namespace zvo

@@ -23,7 +23,7 @@ namespace zvo
 ///         job.resume(passes); // once the device is done
 ///     }
 ///
-/// runJob() runs this loop and waits after each step; JobRun (src/api) spreads the steps over frames of a host.
+/// runJob() runs this loop and waits after each step; TreeJob (src/api) spreads the steps over frames of a host.
 class StepJob
 {
 public:

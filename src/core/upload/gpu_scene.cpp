@@ -214,6 +214,16 @@ std::vector<std::uint32_t> packBytes(const std::vector<std::uint8_t>& bytes)
     return words;
 }
 
+// Adds the tables of colours, and that of the buffers, which all others are in already.
+void addTables(vk::Uploader& device, GpuScene& scene)
+{
+    const auto& to_linear = srgbToLinearTable();
+    scene.srgb_to_linear = device.makeBuffer("scene/srgb_to_linear", std::span<const gpu::uint>(to_linear));
+    scene.linear_to_srgb = upload(device, "scene/linear_to_srgb", packBytes(linearToSrgbTable()));
+    const gpu::SceneView view = sceneView(scene);
+    scene.view = device.makeBuffer("scene/view", std::span<const gpu::SceneView>(&view, 1));
+}
+
 } // namespace
 
 float brightestEmission(const Scene& scene)
@@ -256,15 +266,14 @@ GpuScene uploadScene(vk::Uploader& device, const Scene& scene, bool attributes, 
         result.surface_area += triangleArea(primitive, glm::dmat3(instance.transform));
     }
 
-    const auto& to_linear = srgbToLinearTable();
-    const std::vector<std::uint32_t> to_srgb = packBytes(linearToSrgbTable());
-    device.device().memory().require(
-        bytesOf(staging.draws, staging.triangles, staging.positions, staging.normals, staging.uvs, staging.colors,
-                staging.materials, staging.textures, staging.pool.levels(), to_srgb, staging.whole_chunks[0],
-                staging.whole_chunks[1], staging.whole_chunks[2], staging.single_chunks[0], staging.single_chunks[1],
-                staging.single_chunks[2]) +
-            staging.pool.texelCount() * sizeof(gpu::uint) + sizeof(to_linear) + sizeof(gpu::SceneView),
-        "the scene");
+    device.device().memory().require(bytesOf(staging.draws, staging.triangles, staging.positions, staging.normals,
+                                             staging.uvs, staging.colors, staging.materials, staging.textures,
+                                             staging.pool.levels(), staging.whole_chunks[0], staging.whole_chunks[1],
+                                             staging.whole_chunks[2], staging.single_chunks[0],
+                                             staging.single_chunks[1], staging.single_chunks[2]) +
+                                         staging.pool.texelCount() * sizeof(gpu::uint) + sizeof(srgbToLinearTable()) +
+                                         linearToSrgbTable().size() + sizeof(gpu::SceneView),
+                                     "the scene");
     staging.pool.checkSize(device.device());
     static_assert(gpu::kClassCount == 3);
     result.draws = upload(device, "scene/draws", staging.draws);
@@ -277,17 +286,20 @@ GpuScene uploadScene(vk::Uploader& device, const Scene& scene, bool attributes, 
     result.textures = upload(device, "scene/textures", staging.textures);
     result.levels = upload(device, "scene/texture_levels", staging.pool.levels());
     result.texels = staging.pool.upload(device, texture_options.progress, result.warnings);
-    result.srgb_to_linear = device.makeBuffer("scene/srgb_to_linear", std::span<const gpu::uint>(to_linear));
-    result.linear_to_srgb = upload(device, "scene/linear_to_srgb", to_srgb);
     for (std::size_t i = 0; i < result.chunks.size(); ++i)
     {
         result.chunks[i] = {upload(device, "scene/chunks", staging.whole_chunks[i]),
                             upload(device, "scene/single_chunks", staging.single_chunks[i])};
     }
-
-    const gpu::SceneView view = sceneView(result);
-    result.view = device.makeBuffer("scene/view", std::span<const gpu::SceneView>(&view, 1));
+    addTables(device, result);
     return result;
+}
+
+GpuScene uploadColorTables(vk::Uploader& device)
+{
+    GpuScene tables;
+    addTables(device, tables);
+    return tables;
 }
 
 gpu::SceneView sceneView(const GpuScene& scene)

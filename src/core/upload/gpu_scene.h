@@ -100,6 +100,9 @@ struct TextureOptions
 GpuScene uploadScene(vk::Uploader& device, const Scene& scene, bool attributes,
                      std::optional<float> emission_scale = std::nullopt, const TextureOptions& textures = {});
 
+/// A scene without triangles: only the tables that readColorTables() reads.
+GpuScene uploadColorTables(vk::Uploader& device);
+
 /// The table of the addresses of scene's buffers.
 gpu::SceneView sceneView(const GpuScene& scene);
 

@@ -184,7 +184,7 @@ void JsonCursor::requireObject() const
     }
 }
 
-void JsonCursor::allowKeys(std::initializer_list<std::string_view> keys) const
+void JsonCursor::allowKeys(std::span<const std::string_view> keys) const
 {
     requireObject();
     for (const auto& [key, value] : m_value->items())

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <exception>
 #include <filesystem>
+#include <functional>
 #include <glm/glm.hpp>
 #include <initializer_list>
 #include <nlohmann/json_fwd.hpp>
@@ -45,10 +46,18 @@ public:
     [[nodiscard]] Error mismatch(std::string_view expected) const;
 
     /// Checks that the value is an object and has only these keys.
-    void allowKeys(std::initializer_list<std::string_view> keys) const;
+    void allowKeys(std::span<const std::string_view> keys) const;
+    void allowKeys(std::initializer_list<std::string_view> keys) const { allowKeys(std::span(keys)); }
     /// A member of an object.
     [[nodiscard]] std::optional<JsonCursor> find(std::string_view key) const;
     [[nodiscard]] JsonCursor at(std::string_view key) const;
+    /// What read makes of a member, such as &JsonCursor::flag; otherwise, where there is none.
+    template <typename Value, typename Read>
+    [[nodiscard]] Value valueOr(std::string_view key, const Read& read, Value otherwise) const
+    {
+        const std::optional<JsonCursor> member = find(key);
+        return member ? Value(std::invoke(read, *member)) : otherwise;
+    }
     /// The elements of an array.
     [[nodiscard]] std::vector<JsonCursor> items() const;
 

@@ -42,8 +42,6 @@ class TextCursor
 public:
     explicit TextCursor(std::string_view text) : m_rest(text) {}
 
-    [[nodiscard]] std::string_view rest() const { return m_rest; }
-
     /// The next line without its end, which is "\n", "\r\n" or "\r"; nothing at the end of the text.
     std::optional<std::string_view> line()
     {
@@ -57,6 +55,14 @@ public:
         const std::size_t end = m_rest.starts_with("\r\n") ? 2 : m_rest.empty() ? 0 : 1;
         m_rest.remove_prefix(end);
         return line;
+    }
+
+    /// The next size bytes; fewer where the text ends before.
+    std::string_view take(std::size_t size)
+    {
+        const std::string_view taken = m_rest.substr(0, size);
+        m_rest.remove_prefix(taken.size());
+        return taken;
     }
 
     /// The next word, whatever line it is on; empty at the end of the text.

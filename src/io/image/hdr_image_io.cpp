@@ -21,11 +21,6 @@
 #include <stdexcept>
 #include <string_view>
 
-// stb's functions are static, because a program that links zvo may have its own.
-#define STB_IMAGE_WRITE_STATIC
-#define STB_IMAGE_WRITE_IMPLEMENTATION
-#include <stb/stb_image_write.h>
-
 namespace zvo
 {
 
@@ -33,12 +28,7 @@ namespace
 {
 
 constexpr std::array<std::uint8_t, 4> kExrMagic = {0x76, 0x2F, 0x31, 0x01};
-constexpr int kChannels = 3;
-
-Error hdrError(const std::string& where, const std::string& what)
-{
-    return {ErrorCode::Input, fmt::format("{}: {}", where, what)};
-}
+constexpr int kHdrChannels = 3;
 
 bool startsWith(std::span<const std::uint8_t> bytes, std::string_view text)
 {
@@ -49,14 +39,15 @@ void checkTexels(std::int64_t width, std::int64_t height, const std::string& whe
 {
     if (width < 1 || height < 1)
     {
-        throw hdrError(where, "the picture has no texels");
+        throw imageError(where, "the picture has no texels");
     }
     if (std::max(width, height) > std::int64_t{kImageEdgeMax} ||
         static_cast<std::uint64_t>(width * height) > kHdrTexelsMax)
     {
-        throw hdrError(where, fmt::format("the picture has {} x {} texels, more than {} on an edge or {} in all; scale "
-                                          "it down",
-                                          width, height, kImageEdgeMax, kHdrTexelsMax));
+        throw imageError(where,
+                         fmt::format("the picture has {} x {} texels, more than {} on an edge or {} in all; scale "
+                                     "it down",
+                                     width, height, kImageEdgeMax, kHdrTexelsMax));
     }
 }
 
@@ -96,7 +87,7 @@ private:
 
     [[nodiscard]] Error fault(const std::string& what) const
     {
-        return hdrError(m_where, "the Radiance picture does not decode (" + what + ")");
+        return imageError(m_where, "the Radiance picture does not decode (" + what + ")");
     }
 
     std::uint8_t next()
@@ -271,7 +262,7 @@ private:
 };
 
 // Names of the channels that become red, green and blue.
-std::array<const char*, kChannels> channelsOf(const Imf::Header& header, const std::string& where)
+std::array<const char*, kHdrChannels> channelsOf(const Imf::Header& header, const std::string& where)
 {
     const Imf::ChannelList& channels = header.channels();
     if (channels.findChannel("R") != nullptr && channels.findChannel("G") != nullptr &&
@@ -283,7 +274,7 @@ std::array<const char*, kChannels> channelsOf(const Imf::Header& header, const s
     {
         return {"Y", "Y", "Y"};
     }
-    throw hdrError(where, "the OpenEXR picture has neither the channels R, G and B nor Y");
+    throw imageError(where, "the OpenEXR picture has neither the channels R, G and B nor Y");
 }
 
 HdrImage readExr(Imf::InputFile& file, const std::string& where)
@@ -294,7 +285,7 @@ HdrImage readExr(Imf::InputFile& file, const std::string& where)
                       static_cast<std::uint32_t>(window.max.y - window.min.y + 1),
                       {}};
     const std::array names = channelsOf(file.header(), where);
-    std::vector<std::array<float, kChannels>> texels(std::size_t{image.width} * image.height);
+    std::vector<std::array<float, kHdrChannels>> texels(std::size_t{image.width} * image.height);
     const bool grey = std::string_view(names[0]) == names[1];
     Imf::FrameBuffer buffer;
     for (std::size_t i = 0; i < (grey ? 1 : names.size()); ++i)
@@ -309,7 +300,7 @@ HdrImage readExr(Imf::InputFile& file, const std::string& where)
     file.setFrameBuffer(buffer);
     file.readPixels(window.min.y, window.max.y);
     image.texels.reserve(texels.size());
-    for (const std::array<float, kChannels>& texel : texels)
+    for (const std::array<float, kHdrChannels>& texel : texels)
     {
         image.texels.emplace_back(texel[0], texel[grey ? 0 : 1], texel[grey ? 0 : 2]);
     }
@@ -330,7 +321,7 @@ HdrImage decodeExr(std::span<const std::uint8_t> encoded, const std::string& whe
     }
     catch (const std::exception& error)
     {
-        throw hdrError(where, "the OpenEXR picture does not decode; save it again");
+        throw imageError(where, "the OpenEXR picture does not decode; save it again");
     }
 }
 
@@ -343,7 +334,7 @@ void repair(HdrImage& image, const std::string& where, std::vector<std::string>&
     {
         const bool is_light = texel.x >= 0.0F && texel.y >= 0.0F && texel.z >= 0.0F; // false for NaN
         const bool is_bright = texel.x > kRadianceMax || texel.y > kRadianceMax || texel.z > kRadianceMax;
-        for (int i = 0; i < kChannels; ++i)
+        for (int i = 0; i < kHdrChannels; ++i)
         {
             texel[i] = texel[i] > 0.0F ? std::min(texel[i], kRadianceMax) : 0.0F; // not -0, either
         }
@@ -371,29 +362,11 @@ HdrImage decodeHdrImage(std::span<const std::uint8_t> encoded, const std::string
         encoded.size() >= kExrMagic.size() && std::equal(kExrMagic.begin(), kExrMagic.end(), encoded.begin());
     if (!is_exr && !startsWith(encoded, "#?RADIANCE") && !startsWith(encoded, "#?RGBE"))
     {
-        throw hdrError(where, "neither a Radiance (.hdr) nor an OpenEXR (.exr) picture");
+        throw imageError(where, "neither a Radiance (.hdr) nor an OpenEXR (.exr) picture");
     }
     HdrImage image = is_exr ? decodeExr(encoded, where) : RadianceReader(encoded, where).read();
     repair(image, where, warnings);
     return image;
-}
-
-std::vector<std::uint8_t> encodeHdr(const HdrImage& image)
-{
-    std::vector<std::uint8_t> bytes;
-    const auto append = [](void* context, void* data, int count)
-    {
-        auto& to = *static_cast<std::vector<std::uint8_t>*>(context);
-        const std::size_t at = to.size();
-        to.resize(at + static_cast<std::size_t>(count));
-        std::memcpy(&to[at], data, static_cast<std::size_t>(count));
-    };
-    if (stbi_write_hdr_to_func(append, &bytes, static_cast<int>(image.width), static_cast<int>(image.height), kChannels,
-                               &image.texels.front().x) == 0)
-    {
-        throw Error(ErrorCode::Memory, "cannot encode a Radiance picture: not enough memory; make it smaller");
-    }
-    return bytes;
 }
 
 std::vector<std::uint8_t> encodeExr(const HdrImage& image, std::span<const ExrChannel> others)
@@ -412,9 +385,9 @@ std::vector<std::uint8_t> encodeExr(const HdrImage& image, std::span<const ExrCh
                 buffer.insert(channel.name, Imf::Slice(Imf::FLOAT, first, bytes, image.width * bytes));
             };
             const float* const red = &image.texels.front().x;
-            add({"R", red, kChannels});
-            add({"G", red + 1, kChannels});
-            add({"B", red + 2, kChannels});
+            add({"R", red, kHdrChannels});
+            add({"G", red + 1, kHdrChannels});
+            add({"B", red + 2, kHdrChannels});
             std::ranges::for_each(others, add);
             Imf::OutputFile file(sink, header, 0);
             file.setFrameBuffer(buffer);

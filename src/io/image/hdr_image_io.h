@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/scene/hdr_image.h"
+#include "io/image/image_io.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -20,9 +21,6 @@ inline constexpr std::uint64_t kHdrTexelsMax = std::uint64_t{1} << 25;
 /// where: the beginning of messages. Throws Error{Input}.
 HdrImage decodeHdrImage(std::span<const std::uint8_t> encoded, const std::string& where,
                         std::vector<std::string>& warnings);
-
-/// A Radiance picture (.hdr): 8 bits of mantissa with a common exponent. Throws Error{Memory}.
-std::vector<std::uint8_t> encodeHdr(const HdrImage& image);
 
 /// A channel of an OpenEXR picture, such as "depth.Z": a number for each texel, each a number of floats behind the one
 /// before.

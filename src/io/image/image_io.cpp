@@ -66,9 +66,12 @@ namespace
 constexpr int kChannels = 4;
 constexpr std::size_t kDecoderBytesMin = std::size_t{1} << 16U; // for its tables
 
-Error imageError(const std::string& where, const std::string& what)
+/// For stb's writers: appends to the vector of bytes that is the context.
+void appendBytes(void* context, void* data, int count)
 {
-    return {ErrorCode::Input, fmt::format("{}: {}", where, what)};
+    auto& bytes = *static_cast<std::vector<std::uint8_t>*>(context);
+    const auto* first = static_cast<const std::uint8_t*>(data);
+    bytes.insert(bytes.end(), first, first + count);
 }
 
 // Throws if a picture is too large, or takes more than bytes_max bytes decoded.
@@ -256,21 +259,32 @@ std::vector<std::uint8_t> encodePng(std::uint32_t width, std::uint32_t height, s
     assert(width > 0 && height > 0 && std::max(width, height) <= kImageEdgeMax);
     assert(rgba.size() == std::size_t{width} * height * kChannels);
     std::vector<std::uint8_t> png;
-    const auto append = [](void* context, void* data, int bytes)
-    {
-        const auto* first = static_cast<const std::uint8_t*>(data);
-        static_cast<std::vector<std::uint8_t>*>(context)->insert(
-            static_cast<std::vector<std::uint8_t>*>(context)->end(), first, first + bytes);
-    };
     const auto row_bytes = static_cast<int>(width) * kChannels;
-    if (stbi_write_png_to_func(append, &png, static_cast<int>(width), static_cast<int>(height), kChannels, rgba.data(),
-                               row_bytes) == 0)
+    if (stbi_write_png_to_func(appendBytes, &png, static_cast<int>(width), static_cast<int>(height), kChannels,
+                               rgba.data(), row_bytes) == 0)
     {
         throw Error(ErrorCode::Memory, fmt::format("cannot encode a picture of {} x {} pixels as PNG: not enough "
                                                    "memory; make it smaller",
                                                    width, height));
     }
     return png;
+}
+
+std::vector<std::uint8_t> encodeHdr(const HdrImage& image)
+{
+    constexpr int kRgb = 3;
+    std::vector<std::uint8_t> bytes;
+    if (stbi_write_hdr_to_func(appendBytes, &bytes, static_cast<int>(image.width), static_cast<int>(image.height), kRgb,
+                               &image.texels.front().x) == 0)
+    {
+        throw Error(ErrorCode::Memory, "cannot encode a Radiance picture: not enough memory; make it smaller");
+    }
+    return bytes;
+}
+
+Error imageError(const std::string& where, const std::string& what)
+{
+    return {ErrorCode::Input, fmt::format("{}: {}", where, what)};
 }
 
 } // namespace zvo

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "core/scene/hdr_image.h"
 #include "core/scene/scene.h"
+#include "zvo/error.h"
 
 #include <cstdint>
 #include <filesystem>
@@ -45,5 +47,11 @@ Image deferImage(std::span<const std::uint8_t> encoded, EncodedImage source, con
 
 /// A PNG file of width * height pixels from rgba, 4 bytes each, rows from the top. Equal pictures give equal bytes.
 std::vector<std::uint8_t> encodePng(std::uint32_t width, std::uint32_t height, std::span<const std::uint8_t> rgba);
+
+/// A Radiance picture (.hdr): 8 bits of mantissa with a common exponent. Throws Error{Memory}.
+std::vector<std::uint8_t> encodeHdr(const HdrImage& image);
+
+/// Error{Input}: what is wrong with a picture. where: the beginning of the message.
+Error imageError(const std::string& where, const std::string& what);
 
 } // namespace zvo

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/glm.hpp>
 
 namespace zvo
 {
@@ -12,6 +13,13 @@ inline double srgbToLinear(double encoded)
 {
     const double value = encoded > 0.0 ? std::min(encoded, 1.0) : 0.0;
     return value <= 0.04045 ? value / 12.92 : std::pow((value + 0.055) / 1.055, 2.4);
+}
+
+/// The linear colour of an sRGB encoded one, with its alpha.
+inline glm::vec4 srgbToLinear(const glm::dvec4& encoded)
+{
+    const double alpha = encoded.a > 0.0 ? std::min(encoded.a, 1.0) : 0.0;
+    return {srgbToLinear(encoded.r), srgbToLinear(encoded.g), srgbToLinear(encoded.b), alpha};
 }
 
 } // namespace zvo

@@ -47,7 +47,7 @@ public:
     }
 
 private:
-    Assimp::IOStream* keep(std::unique_ptr<Assimp::IOStream> file);
+    Assimp::IOStream* keep(std::span<const std::uint8_t> bytes, bool own);
 
     const std::filesystem::path& m_path;
     std::span<const std::uint8_t> m_bytes;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "io/mesh/obj_file.h"
 
+#include "core/base/finite.h"
 #include "core/base/input_error.h"
 #include "core/base/read_file.h"
 #include "core/scene/scene_size.h"
@@ -42,6 +43,11 @@ void keepObj(Assimp::Importer& importer)
             delete other; // the caller owns it now
         }
     }
+}
+
+glm::vec3 toVec3(const aiVector3D& vector)
+{
+    return {vector.x, vector.y, vector.z};
 }
 
 WrapMode toWrapMode(int mode)
@@ -217,8 +223,7 @@ private:
             m_corners.clear();
             for (const unsigned int corner : corners)
             {
-                const aiVector3D& position = mesh.mVertices[corner];
-                m_corners.emplace_back(position.x, position.y, position.z);
+                m_corners.push_back(toVec3(mesh.mVertices[corner]));
             }
             m_triangulator.triangulate(m_corners, corners, triangles);
         }
@@ -230,15 +235,11 @@ private:
         primitive.positions.reserve(mesh.mNumVertices);
         for (unsigned int i = 0; i < mesh.mNumVertices; ++i)
         {
-            const aiVector3D& position = mesh.mVertices[i];
-            primitive.positions.emplace_back(position.x, position.y, position.z);
+            primitive.positions.push_back(toVec3(mesh.mVertices[i]));
         }
         for (unsigned int i = 0; mesh.mNormals != nullptr && i < mesh.mNumVertices; ++i)
         {
-            const glm::dvec3 normal(mesh.mNormals[i].x, mesh.mNormals[i].y, mesh.mNormals[i].z);
-            const double length = std::sqrt(glm::dot(normal, normal));
-            primitive.normals.push_back(length > 0.0 && std::isfinite(length) ? glm::vec3(normal / length)
-                                                                              : glm::vec3(0.0F));
+            primitive.normals.push_back(unitOrZero(toVec3(mesh.mNormals[i])));
         }
         for (unsigned int i = 0; mesh.mTextureCoords[0] != nullptr && i < mesh.mNumVertices; ++i)
         {
@@ -248,8 +249,7 @@ private:
         for (unsigned int i = 0; mesh.mColors[0] != nullptr && i < mesh.mNumVertices; ++i)
         {
             const aiColor4D& color = mesh.mColors[0][i];
-            primitive.colors.emplace_back(srgbToLinear(color.r), srgbToLinear(color.g), srgbToLinear(color.b),
-                                          std::clamp(color.a, 0.0F, 1.0F));
+            primitive.colors.push_back(srgbToLinear(glm::dvec4(color.r, color.g, color.b, color.a)));
         }
     }
 

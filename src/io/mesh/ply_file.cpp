@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "io/mesh/ply_file.h"
 
+#include "core/base/finite.h"
 #include "core/base/input_error.h"
 #include "core/scene/scene_size.h"
 #include "io/file/text_cursor.h"
@@ -12,8 +13,8 @@
 #include <array>
 #include <bit>
 #include <cmath>
-#include <cstring>
 #include <fmt/format.h>
+#include <iterator>
 #include <limits>
 #include <optional>
 #include <span>
@@ -56,33 +57,21 @@ using VertexValues = std::array<double, kUseCount>;
 
 Use useOf(std::string_view name)
 {
-    constexpr std::array<std::pair<std::string_view, Use>, 17> kNames = {{{"x", Use::X},
-                                                                          {"y", Use::Y},
-                                                                          {"z", Use::Z},
-                                                                          {"nx", Use::NormalX},
-                                                                          {"ny", Use::NormalY},
-                                                                          {"nz", Use::NormalZ},
-                                                                          {"red", Use::Red},
-                                                                          {"green", Use::Green},
-                                                                          {"blue", Use::Blue},
-                                                                          {"alpha", Use::Alpha},
-                                                                          {"r", Use::Red},
-                                                                          {"g", Use::Green},
-                                                                          {"b", Use::Blue},
-                                                                          {"a", Use::Alpha},
-                                                                          {"diffuse_red", Use::Red},
-                                                                          {"diffuse_green", Use::Green},
-                                                                          {"diffuse_blue", Use::Blue}}};
-    const auto found =
-        std::find_if(kNames.begin(), kNames.end(), [name](const auto& entry) { return entry.first == name; });
-    return found != kNames.end() ? found->second : Use::Nothing;
+    constexpr std::string_view kNames[kUseCount][3] = {{"x"},
+                                                       {"y"},
+                                                       {"z"},
+                                                       {"nx"},
+                                                       {"ny"},
+                                                       {"nz"},
+                                                       {"red", "r", "diffuse_red"},
+                                                       {"green", "g", "diffuse_green"},
+                                                       {"blue", "b", "diffuse_blue"},
+                                                       {"alpha", "a"}};
+    const auto hasName = [&](const auto& names)
+    { return std::find(std::begin(names), std::end(names), name) != std::end(names); };
+    const auto found = std::find_if(std::begin(kNames), std::end(kNames), hasName);
+    return name.empty() ? Use::Nothing : static_cast<Use>(found - std::begin(kNames));
 }
-
-struct Polygon
-{
-    std::size_t triangles_before = 0; // in the file
-    std::size_t vertex_count = 0;
-};
 
 class PlyReader
 {
@@ -101,18 +90,11 @@ public:
                 fmt::format("lines of the header without a keyword of PLY left out (\"{}\")", header.unknown_line));
         }
         m_encoding = header.encoding;
-        m_data = m_cursor.rest();
-        for (const PlyElement& element : header.elements)
-        {
-            readElement(element);
-        }
-        checkIndices();
-        cutPolygons();
-        if (m_triangles.empty() && m_polygons.empty() && !m_primitive.positions.empty())
+        readElements(header.elements);
+        if (!m_has_faces && !m_primitive.positions.empty())
         {
             notes.emplace_back("a cloud of points, without faces; only triangles become voxels");
         }
-        m_primitive.triangles = std::move(m_triangles);
         return std::move(m_primitive);
     }
 
@@ -124,42 +106,74 @@ private:
         return inputError(m_path, fmt::format("the PLY file ends before its last element; {}", kCutShort));
     }
 
-    void readElement(const PlyElement& element)
+    /// Reads the vertices first, as faces may stand before those that they name.
+    void readElements(const std::vector<PlyElement>& elements)
     {
-        if (element.properties.empty())
+        const auto vertices = std::find_if(elements.begin(), elements.end(), hasVertices);
+        const TextCursor start = m_cursor;
+        std::for_each(elements.begin(), vertices, [this](const PlyElement& element) { skip(element); });
+        if (vertices != elements.end())
         {
-            return; // its elements have no data, whatever their number
+            readVertices(*vertices);
         }
-        if (element.name == "vertex")
+        const TextCursor behind_vertices = std::exchange(m_cursor, start);
+        for (auto element = elements.begin(); element != elements.end(); ++element)
         {
-            if (!m_primitive.positions.empty())
+            if (element == vertices)
+            {
+                m_cursor = behind_vertices;
+            }
+            else if (hasVertices(*element))
             {
                 throw fail("it has several lists of vertices");
             }
-            readVertices(element);
-            return;
-        }
-        const bool has_faces = element.name == "face" || element.name == "tristrips";
-        for (std::uint64_t i = 0; i < element.count; ++i)
-        {
-            for (const PlyProperty& property : element.properties)
+            else
             {
-                const bool is_face = has_faces && property.count_type &&
-                                     (property.name == "vertex_indices" || property.name == "vertex_index");
-                if (!is_face)
-                {
-                    skip(property);
-                }
-                else if (element.name == "face")
-                {
-                    readFace(property);
-                }
-                else
-                {
-                    readStrips(property);
-                }
+                readFaces(*element);
             }
         }
+    }
+
+    static bool hasVertices(const PlyElement& element)
+    {
+        return element.name == "vertex" && element.count != 0 && !element.properties.empty();
+    }
+
+    /// Calls read with each property of each item, whose data comes in this order. An element without properties has
+    /// no data, whatever its count.
+    template <typename Read> static void forEachProperty(const PlyElement& element, const Read& read)
+    {
+        for (std::uint64_t i = 0; !element.properties.empty() && i < element.count; ++i)
+        {
+            std::for_each(element.properties.begin(), element.properties.end(), read);
+        }
+    }
+
+    void skip(const PlyElement& element)
+    {
+        forEachProperty(element, [this](const PlyProperty& property) { skip(property); });
+    }
+
+    void readFaces(const PlyElement& element)
+    {
+        forEachProperty(element,
+                        [&](const PlyProperty& property)
+                        {
+                            const bool has_corners = property.count_type && (property.name == "vertex_indices" ||
+                                                                             property.name == "vertex_index");
+                            if (has_corners && element.name == "face")
+                            {
+                                readFace(property);
+                            }
+                            else if (has_corners && element.name == "tristrips")
+                            {
+                                readStrips(property);
+                            }
+                            else
+                            {
+                                skip(property);
+                            }
+                        });
     }
 
     void readVertices(const PlyElement& element)
@@ -213,41 +227,29 @@ private:
         m_primitive.positions.emplace_back(vector(Use::X));
         if (has_normals)
         {
-            const glm::dvec3 normal = vector(Use::NormalX);
-            const double length = std::sqrt(glm::dot(normal, normal));
-            m_primitive.normals.push_back(length > 0.0 && std::isfinite(length) ? glm::vec3(normal / length)
-                                                                                : glm::vec3(0.0F));
+            m_primitive.normals.push_back(unitOrZero(vector(Use::NormalX)));
         }
         if (has_colors)
         {
-            const glm::dvec3 color = vector(Use::Red);
-            const double alpha = values[static_cast<std::size_t>(Use::Alpha)];
-            m_primitive.colors.emplace_back(srgbToLinear(color.r), srgbToLinear(color.g), srgbToLinear(color.b),
-                                            alpha > 0.0 ? std::min(alpha, 1.0) : 0.0);
+            m_primitive.colors.push_back(
+                srgbToLinear(glm::dvec4(vector(Use::Red), values[static_cast<std::size_t>(Use::Alpha)])));
         }
     }
 
     void readFace(const PlyProperty& property)
     {
         const std::uint64_t count = listCount(property);
-        const std::size_t first = m_polygon_vertices.size();
+        const std::uint64_t triangles_max = count > 3 ? 2 * count : count / 3; // PolygonTriangulator
+        m_corners.clear();
+        m_corner_positions.clear();
         for (std::uint64_t i = 0; i < count; ++i)
         {
-            m_bytes_left.take(count > 3 ? sizeof(std::uint32_t) + 2 * sizeof(glm::uvec3) : 0); // PolygonTriangulator
-            m_polygon_vertices.push_back(vertexIndex(number(property.type)));
+            m_corners.push_back(vertexIndex(number(property.type)));
+            m_corner_positions.push_back(m_primitive.positions[m_corners.back()]);
         }
-        if (count > 3)
-        {
-            m_bytes_left.take(sizeof(Polygon));
-            m_polygons.push_back({m_triangles.size(), static_cast<std::size_t>(count)});
-            return;
-        }
-        if (count == 3)
-        {
-            const std::uint32_t* corners = &m_polygon_vertices[first];
-            addTriangle({corners[0], corners[1], corners[2]});
-        }
-        m_polygon_vertices.resize(first);
+        m_bytes_left.take(triangles_max * sizeof(glm::uvec3));
+        m_triangulator.triangulate(m_corner_positions, m_corners, m_primitive.triangles);
+        m_has_faces = m_has_faces || count >= 3;
     }
 
     void readStrips(const PlyProperty& property)
@@ -267,72 +269,27 @@ private:
             if (in_strip >= 2)
             {
                 const bool odd = in_strip % 2 == 1;
-                addTriangle({last[odd ? 1 : 0], last[odd ? 0 : 1], vertex});
+                m_bytes_left.take(sizeof(glm::uvec3));
+                m_primitive.triangles.emplace_back(last[odd ? 1 : 0], last[odd ? 0 : 1], vertex);
+                m_has_faces = true;
             }
             last = {last[1], vertex};
             ++in_strip;
         }
     }
 
-    void addTriangle(const glm::uvec3& triangle)
-    {
-        m_bytes_left.take(sizeof(triangle));
-        m_triangles.push_back(triangle);
-    }
-
     std::uint32_t vertexIndex(double value) const
     {
+        const std::size_t vertex_count = m_primitive.positions.size();
         if (!(value >= 0.0) || value >= std::numeric_limits<std::uint32_t>::max() || value != std::floor(value))
         {
             throw fail(fmt::format("a face has the vertex {}", value));
         }
+        if (value >= static_cast<double>(vertex_count))
+        {
+            throw fail(fmt::format("a face has the vertex {}, but there are {}", value, vertex_count));
+        }
         return static_cast<std::uint32_t>(value);
-    }
-
-    void checkIndices() const
-    {
-        const std::size_t vertex_count = m_primitive.positions.size();
-        const auto check = [&](std::uint32_t vertex)
-        {
-            if (vertex >= vertex_count)
-            {
-                throw fail(fmt::format("a face has the vertex {}, but there are {}", vertex, vertex_count));
-            }
-        };
-        for (const glm::uvec3& triangle : m_triangles)
-        {
-            check(std::max({triangle.x, triangle.y, triangle.z}));
-        }
-        std::for_each(m_polygon_vertices.begin(), m_polygon_vertices.end(), check);
-    }
-
-    /// Puts the triangles of the polygons among the others, in the order of the file.
-    void cutPolygons()
-    {
-        if (m_polygons.empty())
-        {
-            return;
-        }
-        const std::vector<glm::uvec3> others = std::exchange(m_triangles, {});
-        std::span<const glm::uvec3> others_left(others);
-        std::span<const std::uint32_t> vertices_left(m_polygon_vertices);
-        std::vector<glm::vec3> positions;
-        PolygonTriangulator triangulator;
-        for (const Polygon& polygon : m_polygons)
-        {
-            const auto before = others_left.first(polygon.triangles_before - (others.size() - others_left.size()));
-            m_triangles.insert(m_triangles.end(), before.begin(), before.end());
-            others_left = others_left.subspan(before.size());
-            const auto vertices = vertices_left.first(polygon.vertex_count);
-            vertices_left = vertices_left.subspan(polygon.vertex_count);
-            positions.clear();
-            for (const std::uint32_t vertex : vertices)
-            {
-                positions.push_back(m_primitive.positions[vertex]);
-            }
-            triangulator.triangulate(positions, vertices, m_triangles);
-        }
-        m_triangles.insert(m_triangles.end(), others_left.begin(), others_left.end());
     }
 
     std::uint64_t listCount(const PlyProperty& property)
@@ -384,17 +341,17 @@ private:
 
     template <typename T> double binaryNumber()
     {
-        if (m_data.size() < sizeof(T))
+        const std::string_view data = m_cursor.take(sizeof(T));
+        if (data.size() < sizeof(T))
         {
             throw cutShort();
         }
         std::array<char, sizeof(T)> bytes;
-        std::copy_n(m_data.begin(), sizeof(T), bytes.begin());
+        std::copy_n(data.begin(), sizeof(T), bytes.begin());
         if ((m_encoding == PlyEncoding::BigEndian) != (std::endian::native == std::endian::big))
         {
             std::reverse(bytes.begin(), bytes.end());
         }
-        m_data.remove_prefix(sizeof(T));
         return static_cast<double>(std::bit_cast<T>(bytes));
     }
 
@@ -415,13 +372,13 @@ private:
     }
 
     const std::filesystem::path& m_path;
-    TextCursor m_cursor; // in the header, and in the data if it is text
-    std::string_view m_data;
+    TextCursor m_cursor;
     PlyEncoding m_encoding = PlyEncoding::Text;
     SceneBytesLeft m_bytes_left;
-    std::vector<glm::uvec3> m_triangles;
-    std::vector<Polygon> m_polygons; // faces of more than three vertices, in the order of the file
-    std::vector<std::uint32_t> m_polygon_vertices;
+    std::vector<std::uint32_t> m_corners; // of the current face
+    std::vector<glm::vec3> m_corner_positions;
+    PolygonTriangulator m_triangulator;
+    bool m_has_faces = false; // of three corners at least
     Primitive m_primitive;
 };
 

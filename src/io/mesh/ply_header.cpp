@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <array>
 #include <fmt/format.h>
+#include <iterator>
 #include <string_view>
-#include <utility>
 
 namespace zvo
 {
@@ -17,36 +17,23 @@ namespace
 
 std::optional<PlyType> typeOf(std::string_view name)
 {
-    constexpr std::array<std::pair<std::string_view, PlyType>, 16> kNames = {{{"char", PlyType::Int8},
-                                                                              {"int8", PlyType::Int8},
-                                                                              {"uchar", PlyType::UInt8},
-                                                                              {"uint8", PlyType::UInt8},
-                                                                              {"short", PlyType::Int16},
-                                                                              {"int16", PlyType::Int16},
-                                                                              {"ushort", PlyType::UInt16},
-                                                                              {"uint16", PlyType::UInt16},
-                                                                              {"int", PlyType::Int32},
-                                                                              {"int32", PlyType::Int32},
-                                                                              {"uint", PlyType::UInt32},
-                                                                              {"uint32", PlyType::UInt32},
-                                                                              {"float", PlyType::Float32},
-                                                                              {"float32", PlyType::Float32},
-                                                                              {"double", PlyType::Float64},
-                                                                              {"float64", PlyType::Float64}}};
-    const auto found =
-        std::find_if(kNames.begin(), kNames.end(), [name](const auto& entry) { return entry.first == name; });
-    return found != kNames.end() ? std::optional(found->second) : std::nullopt;
+    constexpr std::string_view kNames[][2] = {{"char", "int8"},     {"uchar", "uint8"},   {"short", "int16"},
+                                              {"ushort", "uint16"}, {"int", "int32"},     {"uint", "uint32"},
+                                              {"float", "float32"}, {"double", "float64"}}; // in the order of PlyType
+    const auto* const found = std::find_if(std::begin(kNames), std::end(kNames),
+                                           [&](const auto& names) { return names[0] == name || names[1] == name; });
+    return found != std::end(kNames) ? std::optional(static_cast<PlyType>(found - std::begin(kNames))) : std::nullopt;
 }
 
 PlyEncoding encodingOf(std::string_view name, const std::filesystem::path& path)
 {
-    if (name != "ascii" && name != "binary_little_endian" && name != "binary_big_endian")
+    constexpr std::array<std::string_view, 3> kNames = {"ascii", "binary_little_endian", "binary_big_endian"};
+    const auto found = std::find(kNames.begin(), kNames.end(), name);
+    if (found == kNames.end())
     {
         throw plyError(path, fmt::format("its format is \"{}\"", name));
     }
-    return name == "ascii"                  ? PlyEncoding::Text
-           : name == "binary_little_endian" ? PlyEncoding::LittleEndian
-                                            : PlyEncoding::BigEndian;
+    return static_cast<PlyEncoding>(found - kNames.begin());
 }
 
 void addProperty(TextCursor& words, std::string_view line, PlyHeader& header, const std::filesystem::path& path)

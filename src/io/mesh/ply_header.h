@@ -14,7 +14,7 @@
 namespace zvo
 {
 
-enum class PlyEncoding
+enum class PlyEncoding // in the order of the names in ply_header.cpp
 {
     Text,
     LittleEndian,

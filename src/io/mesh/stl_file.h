@@ -14,7 +14,8 @@ namespace zvo
 bool isBinaryStl(std::span<const std::uint8_t> content);
 
 /// The triangles of an STL file, text or binary, three vertices each; normals and colours are not read. bytes: the
-/// content of path. Throws Error{Input}. After: 3D Systems, StereoLithography Interface Specification, 1989.
+/// content of path. Throws Error{Input}. assimp's importer hangs on damaged files. After: 3D Systems, StereoLithography
+/// Interface Specification, 1989.
 Primitive readStl(const std::filesystem::path& path, std::span<const std::uint8_t> bytes);
 
 } // namespace zvo

@@ -28,16 +28,10 @@ struct DynamicObject
 };
 
 /// A scene in which objects may move. Its time runs from 0 to `seconds`; then everything begins anew.
-struct AnimatedScene
+struct AnimatedScene : SceneSettings
 {
     Scene fixed; // everything that never moves, in world space
     std::vector<DynamicObject> objects;
-    double seconds = 4.0; // above 0
-    double frames_per_second = 30.0;
-    std::optional<std::uint32_t> grid_depth;
-    std::optional<Bounds> grid_bounds;
-    std::optional<SceneFileCamera> camera;
-    MergeRule merge = MergeRule::Average;
     std::vector<std::filesystem::path> files; // that were read
     std::vector<std::string> warnings;        // what was left out while loading, one line each
 };

@@ -274,9 +274,13 @@ FileParts divide(Scene&& scene, const std::vector<bool>& moves)
     }
     std::vector<bool> stays = moves;
     stays.flip();
-    moveFixed(parts, partOf(scene, stays));
-    scene.rest_warnings.clear();
-    Scene moving = std::find(stays.begin(), stays.end(), true) == stays.end() ? std::move(scene) : partOf(scene, moves);
+    const bool all_move = std::find(stays.begin(), stays.end(), true) == stays.end();
+    Scene moving = all_move ? std::move(scene) : partOf(scene, moves);
+    moving.rest_warnings.clear();
+    if (!all_move)
+    {
+        moveFixed(parts, partOf(std::move(scene), stays));
+    }
     const std::vector<bool> is_animated = animatedInstances(moving);
     parts.deforms = std::find(is_animated.begin(), is_animated.end(), true) != is_animated.end();
     parts.moving = std::make_shared<const Scene>(std::move(moving));
@@ -403,12 +407,7 @@ AnimatedScene loadAnimatedScene(const fs::path& path, const AnimatedSceneOptions
         folders.push_back(*options.scenes_folder);
     }
     AnimatedScene animated;
-    animated.seconds = file.seconds;
-    animated.frames_per_second = file.frames_per_second;
-    animated.grid_depth = file.grid_depth;
-    animated.grid_bounds = file.grid_bounds;
-    animated.camera = file.camera;
-    animated.merge = file.merge;
+    static_cast<SceneSettings&>(animated) = file;
     for (const SceneFileObject& object : file.objects)
     {
         animated.files.push_back(resolve(path, object, folders, options.scenes_folder_name));

@@ -126,8 +126,8 @@ CameraPath parseCameraPath(std::string_view text, const std::filesystem::path& f
         key.seconds = item.at("time").number();
         key.eye = item.at("eye").vector();
         key.target = item.at("target").vector();
-        const std::optional<JsonCursor> fov = item.find("fov");
-        key.fov_degrees = fov ? fov->positive(kFovMax) : key.fov_degrees;
+        const auto readFov = [](const JsonCursor& fov) { return fov.positive(kFovMax); };
+        key.fov_degrees = item.valueOr("fov", readFov, key.fov_degrees);
     }
     if (const std::optional<std::string> fault = faultOf(keys))
     {

@@ -5,8 +5,10 @@
 #include "core/base/read_file.h"
 #include "core/file/zvo_file.h"
 #include "core/scene/animation.h"
+#include "core/scene/scene_size.h"
 #include "io/gltf/gltf_loader.h"
-#include "io/mesh/mesh_import.h"
+#include "io/mesh/obj_file.h"
+#include "io/mesh/ply_file.h"
 #include "io/mesh/stl_file.h"
 #include "io/scene/hulls.h"
 
@@ -33,6 +35,23 @@ enum class FileFormat
     Ply,
     Stl
 };
+
+/// A scene of one mesh, in the default material. notes: what was left out of it.
+Scene sceneOf(const std::filesystem::path& path, Primitive&& mesh, const std::vector<std::string>& notes = {})
+{
+    checkSceneSize(path, {.instance_count = 1,
+                          .triangle_count = static_cast<double>(mesh.triangles.size()),
+                          .vertex_count = static_cast<double>(mesh.positions.size())});
+    Scene scene;
+    scene.primitives.push_back(std::move(mesh));
+    scene.materials.emplace_back().name = "default";
+    scene.instances.emplace_back();
+    for (const std::string& note : notes)
+    {
+        scene.warnings.emplace_back(inputError(path, note).what());
+    }
+    return scene;
+}
 
 std::string lowerExtension(const std::filesystem::path& path)
 {
@@ -92,14 +111,18 @@ Scene loadFile(const std::filesystem::path& path, ImageDecoding decoding)
                          "neither glTF 2.0 nor OBJ, PLY or STL; export it as one of them, or name it .gltf, .glb, "
                          ".obj, .ply or .stl");
     }
+    std::vector<std::string> notes;
     switch (*format)
     {
     case FileFormat::Obj:
-        return importMesh(path, bytes, MeshFormat::Obj, decoding);
+        return readObj(path, bytes, decoding);
     case FileFormat::Ply:
-        return importMesh(path, bytes, MeshFormat::Ply);
+    {
+        Primitive mesh = readPly(path, bytes, notes);
+        return sceneOf(path, std::move(mesh), notes);
+    }
     case FileFormat::Stl:
-        return importMesh(path, bytes, MeshFormat::Stl);
+        return sceneOf(path, readStl(path, bytes));
     default:
         return loadGltf(path, std::move(bytes), decoding);
     }

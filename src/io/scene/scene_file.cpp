@@ -24,10 +24,9 @@ constexpr double kDefaultFov = 45.0; // degrees
 // Of half the angle; nearer to a half turn, rounding would decide the direction.
 constexpr double kHalfTurnCosine = 1e-9;
 
-std::optional<glm::dvec3> findVector(const JsonCursor& object, std::string_view key)
+double readSeconds(const JsonCursor& seconds)
 {
-    const auto member = object.find(key);
-    return member ? std::optional(member->vector()) : std::nullopt;
+    return seconds.positive(kSecondsMax);
 }
 
 /// An axis with a number of turns about it.
@@ -69,14 +68,13 @@ ObjectTransform readTransform(const JsonCursor& json)
 {
     json.allowKeys({"translation", "rotation", "scale"});
     ObjectTransform result;
-    result.translation = findVector(json, "translation").value_or(glm::dvec3(0.0));
+    result.translation = json.valueOr("translation", &JsonCursor::vector, result.translation);
     if (const auto rotation = json.find("rotation"))
     {
         const Rotation turn = readRotation(*rotation);
         result.linear = rotationAbout(turn.axis, turn.turns);
     }
-    const auto scale = json.find("scale");
-    const glm::dvec3 factors = scale ? readScale(*scale) : glm::dvec3(1.0);
+    const auto factors = json.valueOr("scale", readScale, glm::dvec3(1.0));
     for (int column = 0; column < 3; ++column)
     {
         result.linear[column] *= factors[column];
@@ -99,16 +97,13 @@ double readTurnsPerSecond(const JsonCursor& orbit, double scene_seconds)
 OrbitMotion readOrbit(const JsonCursor& orbit, const glm::dvec3& home, double scene_seconds)
 {
     orbit.allowKeys({"centre", "axis", "turns", "degrees_per_second", "circles", "spins"});
-    const auto axis = orbit.find("axis");
-    const auto circles = orbit.find("circles");
-    const auto spins = orbit.find("spins");
     OrbitMotion motion;
-    motion.center = findVector(orbit, "centre").value_or(home);
-    motion.axis = axis ? axis->direction() : motion.axis;
+    motion.center = orbit.valueOr("centre", &JsonCursor::vector, home);
+    motion.axis = orbit.valueOr("axis", &JsonCursor::direction, motion.axis);
     motion.turns_per_second = readTurnsPerSecond(orbit, scene_seconds);
     motion.home = home;
-    motion.circles = !circles || circles->flag();
-    motion.spins = !spins || spins->flag();
+    motion.circles = orbit.valueOr("circles", &JsonCursor::flag, true);
+    motion.spins = orbit.valueOr("spins", &JsonCursor::flag, true);
     if (!motion.circles && !motion.spins)
     {
         throw orbit.error("neither circles nor spins; expected one of them to be true");
@@ -119,12 +114,11 @@ OrbitMotion readOrbit(const JsonCursor& orbit, const glm::dvec3& home, double sc
 LineMotion readLine(const JsonCursor& line, double scene_seconds)
 {
     line.allowKeys({"from", "to", "seconds", "repeat"});
-    const auto seconds = line.find("seconds");
     const auto repeat = line.find("repeat");
     LineMotion motion;
     motion.from = line.at("from").vector();
     motion.to = line.at("to").vector();
-    motion.seconds = seconds ? seconds->positive(kSecondsMax) : scene_seconds;
+    motion.seconds = line.valueOr("seconds", readSeconds, scene_seconds);
     motion.returns = repeat && repeat->oneOf({"loop", "ping-pong"}) == 1;
     return motion;
 }
@@ -250,12 +244,9 @@ SceneFileObject readObject(const JsonCursor& json, double scene_seconds)
     SceneFileObject object;
     object.where = json.where();
     object.file = json.at("file").text();
-    const auto name = json.find("name");
-    object.name = name ? name->text() : std::filesystem::path(object.file).stem().string();
-    const auto up = json.find("up");
-    object.up = up ? readUp(*up) : UpAxis::Y;
-    const auto place = json.find("place");
-    const ObjectTransform placed = place ? readTransform(*place) : ObjectTransform();
+    object.name = json.valueOr("name", &JsonCursor::text, std::filesystem::path(object.file).stem().string());
+    object.up = json.valueOr("up", readUp, UpAxis::Y);
+    const auto placed = json.valueOr("place", readTransform, ObjectTransform());
     object.transform = glm::dmat4(placed.linear * glm::dmat3(rotationToY(object.up)));
     object.transform[3] = glm::dvec4(placed.translation, 1.0);
     object.is_dynamic = readIsDynamic(json);
@@ -310,12 +301,12 @@ SceneFileCamera readCamera(const JsonCursor& camera)
         return camera.text();
     }
     camera.allowKeys({"eye", "target", "fov"});
-    const auto fov = camera.find("fov");
+    const auto fov = camera.valueOr("fov", &JsonCursor::number, kDefaultFov);
     const glm::dvec3 eye = camera.at("eye").vector();
     const glm::dvec3 target = camera.at("target").vector();
     try
     {
-        return ViewCamera::lookAt(eye, target, glm::radians(fov ? fov->number() : kDefaultFov));
+        return ViewCamera::lookAt(eye, target, glm::radians(fov));
     }
     catch (const Error& failure)
     {
@@ -335,10 +326,7 @@ SceneFile parseSceneFile(std::string_view content, const std::filesystem::path& 
     {
         static_cast<void>(about->text());
     }
-    if (const auto seconds = root.find("seconds"))
-    {
-        file.seconds = seconds->positive(kSecondsMax);
-    }
+    file.seconds = root.valueOr("seconds", readSeconds, file.seconds);
     if (const auto rate = root.find("frames_per_second"))
     {
         file.frames_per_second = rate->positive(kFramesPerSecondMax);
@@ -356,10 +344,7 @@ SceneFile parseSceneFile(std::string_view content, const std::filesystem::path& 
     {
         readGrid(*grid, file);
     }
-    if (const auto camera = root.find("camera"))
-    {
-        file.camera = readCamera(*camera);
-    }
+    file.camera = root.valueOr("camera", readCamera, file.camera);
     if (const auto merge = root.find("merge"))
     {
         constexpr std::array kRules = {MergeRule::Average, MergeRule::DynamicWins, MergeRule::StaticWins};

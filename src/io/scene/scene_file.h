@@ -36,15 +36,20 @@ struct SceneFileObject
 /// The camera of a scene file: a camera of a static object by its name, "auto", "close", or numbers.
 using SceneFileCamera = std::variant<std::string, ViewCamera>;
 
-struct SceneFile
+/// What a scene file says of the whole scene.
+struct SceneSettings
 {
-    std::vector<SceneFileObject> objects;
-    double seconds = 4.0; // until everything begins anew
+    double seconds = 4.0; // until everything begins anew; above 0
     double frames_per_second = 30.0;
     std::optional<std::uint32_t> grid_depth;
     std::optional<Bounds> grid_bounds; // as Grid::withCorner takes them
     std::optional<SceneFileCamera> camera;
     MergeRule merge = MergeRule::Average;
+};
+
+struct SceneFile : SceneSettings
+{
+    std::vector<SceneFileObject> objects;
 };
 
 /// The content of a scene file; path is for messages. Throws Error{Input}: one line that names file, path in the JSON,

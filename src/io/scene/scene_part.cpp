@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <fmt/format.h>
 #include <fnmatch.h>
+#include <type_traits>
 #include <utility>
 
 namespace zvo
@@ -39,50 +40,51 @@ private:
     std::vector<std::uint32_t> m_indices;
 };
 
-} // namespace
-
-Scene partOf(const Scene& scene, const std::vector<bool>& keep)
+/// scene: a const one is copied from, one that is not is moved from.
+template <typename AnyScene> Scene takePart(AnyScene& scene, const std::vector<bool>& keep)
 {
     assert(keep.size() == scene.instances.size());
+    const auto take = [](auto& items, const Used& used)
+    {
+        std::vector<typename std::remove_reference_t<decltype(items)>::value_type> taken;
+        for (const std::uint32_t index : used.indices())
+        {
+            taken.push_back(std::move(items[index])); // a copy of an item that is const
+        }
+        return taken;
+    };
     Scene part;
     Used primitives(scene.primitives.size());
     for (std::size_t i = 0; i < scene.instances.size(); ++i)
     {
         if (keep[i])
         {
-            Instance instance = scene.instances[i];
+            Instance& instance = part.instances.emplace_back(scene.instances[i]);
             instance.primitive = primitives.number(instance.primitive);
-            part.instances.push_back(instance);
         }
     }
+    part.primitives = take(scene.primitives, primitives);
     Used materials(scene.materials.size());
-    for (const std::uint32_t index : primitives.indices())
+    for (Primitive& primitive : part.primitives)
     {
-        Primitive primitive = scene.primitives[index];
         primitive.material = materials.number(primitive.material);
-        part.primitives.push_back(std::move(primitive));
     }
+    part.materials = take(scene.materials, materials);
     Used textures(scene.textures.size());
-    for (const std::uint32_t index : materials.indices())
+    for (Material& material : part.materials)
     {
-        Material material = scene.materials[index];
         for (std::optional<std::uint32_t>* texture : {&material.base_color_texture, &material.emission_texture})
         {
             *texture = *texture ? std::optional(textures.number(**texture)) : std::nullopt;
         }
-        part.materials.push_back(std::move(material));
     }
+    part.textures = take(scene.textures, textures);
     Used images(scene.images.size());
-    for (const std::uint32_t index : textures.indices())
+    for (Texture& texture : part.textures)
     {
-        Texture texture = scene.textures[index];
         texture.image = images.number(texture.image);
-        part.textures.push_back(texture);
     }
-    for (const std::uint32_t index : images.indices())
-    {
-        part.images.push_back(scene.images[index]);
-    }
+    part.images = take(scene.images, images);
     part.cameras = scene.cameras;
     part.nodes = scene.nodes;
     part.skins = scene.skins;
@@ -90,6 +92,18 @@ Scene partOf(const Scene& scene, const std::vector<bool>& keep)
     part.warnings = scene.warnings;
     part.rest_warnings = scene.rest_warnings;
     return part;
+}
+
+} // namespace
+
+Scene partOf(const Scene& scene, const std::vector<bool>& keep)
+{
+    return takePart(scene, keep);
+}
+
+Scene partOf(Scene&& scene, const std::vector<bool>& keep)
+{
+    return takePart(scene, keep);
 }
 
 Scene atRest(Scene scene)

@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "io/voxel/glb_write.h"
 
-#include "core/base/morton.h"
 #include "core/tree/tree_build.h"
 #include "io/image/srgb.h"
+#include "io/voxel/voxel_bytes.h"
 #include "zvo/error.h"
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <fmt/format.h>
@@ -22,9 +21,6 @@ namespace zvo
 namespace
 {
 
-static_assert(std::endian::native == std::endian::little); // numbers are written as they are in memory
-
-constexpr std::uint32_t kColorMask = 0xffffffU;
 constexpr std::uint64_t kVerticesOfQuad = 4;
 constexpr std::uint64_t kIndicesOfQuad = 6;
 
@@ -70,24 +66,20 @@ struct Face
 std::vector<Face> facesOf(const TreeData& tree, const Side& side)
 {
     std::vector<Face> faces;
-    std::size_t voxel = 0;
-    forEachVoxel(tree,
-                 [&](std::uint64_t code)
-                 {
-                     const glm::ivec3 cell(cellOfCode(code));
-                     glm::ivec3 neighbor = cell;
-                     neighbor[side.axis] += side.upper ? 1 : -1;
-                     if (!hasVoxel(tree, neighbor))
-                     {
-                         const std::uint32_t color =
-                             tree.hasAttributes() ? tree.voxelAttribute(voxel).color & kColorMask : kPlainColor;
-                         faces.push_back({Face::keyOf(static_cast<std::uint32_t>(cell[side.axis]),
-                                                      static_cast<std::uint32_t>(cell[side.v()]),
-                                                      static_cast<std::uint32_t>(cell[side.u()])),
-                                          color});
-                     }
-                     ++voxel;
-                 });
+    forEachColoredVoxel(tree,
+                        [&](std::uint64_t code, std::uint32_t color)
+                        {
+                            const glm::ivec3 cell(cellOfCode(code));
+                            glm::ivec3 neighbor = cell;
+                            neighbor[side.axis] += side.upper ? 1 : -1;
+                            if (!hasVoxel(tree, neighbor))
+                            {
+                                faces.push_back({Face::keyOf(static_cast<std::uint32_t>(cell[side.axis]),
+                                                             static_cast<std::uint32_t>(cell[side.v()]),
+                                                             static_cast<std::uint32_t>(cell[side.u()])),
+                                                 color});
+                            }
+                        });
     std::sort(faces.begin(), faces.end(), [](const Face& a, const Face& b) { return a.key < b.key; });
     return faces;
 }
@@ -165,45 +157,6 @@ std::array<std::uint16_t, 4> linearColor(std::uint32_t color)
     return linear;
 }
 
-// Collects bytes, and writes them in pieces.
-class Pieces
-{
-public:
-    explicit Pieces(const std::function<void(std::span<const std::byte>)>& write) : m_write(write) {}
-
-    template <typename T> void add(const T& value)
-    {
-        for (const std::byte byte : std::as_bytes(std::span(&value, 1)))
-        {
-            m_bytes.push_back(byte);
-        }
-        if (m_bytes.size() >= kPieceBytes)
-        {
-            flush();
-        }
-    }
-
-    void addText(const std::string& text)
-    {
-        for (const char character : text)
-        {
-            m_bytes.push_back(static_cast<std::byte>(character));
-        }
-    }
-
-    void flush()
-    {
-        m_write(m_bytes);
-        m_bytes.clear();
-    }
-
-private:
-    static constexpr std::size_t kPieceBytes = std::size_t{1} << 20;
-
-    const std::function<void(std::span<const std::byte>)>& m_write;
-    std::vector<std::byte> m_bytes;
-};
-
 std::string documentOf(const TreeData& tree, std::uint64_t quad_count, const CellBox& box)
 {
     const std::uint64_t vertex_count = quad_count * kVerticesOfQuad;
@@ -238,7 +191,7 @@ std::string documentOf(const TreeData& tree, std::uint64_t quad_count, const Cel
 
 } // namespace
 
-void writeGlb(const TreeData& tree, const std::function<void(std::span<const std::byte>)>& write)
+void writeGlb(const TreeData& tree, const WriteBytes& write)
 {
     std::vector<Quad> quads;
     for (int axis = 0; axis < 3; ++axis)
@@ -260,34 +213,37 @@ void writeGlb(const TreeData& tree, const std::function<void(std::span<const std
                                                   "(4 GiB); take a lower resolution",
                                                   quads.size(), file_bytes));
     }
-    Pieces pieces(write);
-    pieces.addText("glTF");
-    pieces.add(std::uint32_t{2});
-    pieces.add(static_cast<std::uint32_t>(file_bytes));
-    pieces.add(static_cast<std::uint32_t>(json.size()));
-    pieces.addText("JSON");
-    pieces.addText(json);
+    ByteCollector file;
+    file.addText("glTF");
+    file.add(std::uint32_t{2});
+    file.add(static_cast<std::uint32_t>(file_bytes));
+    file.add(static_cast<std::uint32_t>(json.size()));
+    file.addText("JSON");
+    file.addText(json);
     if (!quads.empty())
     {
-        pieces.add(static_cast<std::uint32_t>(binary_bytes));
-        pieces.addText(std::string("BIN\0", 4));
+        file.add(static_cast<std::uint32_t>(binary_bytes));
+        file.addText({"BIN\0", 4});
         for (const Quad& quad : quads)
         {
-            pieces.add(cornersOf(quad));
+            file.add(cornersOf(quad));
+            file.passOn(write);
         }
         for (const Quad& quad : quads)
         {
             const std::array<std::uint16_t, 4> color = linearColor(quad.color);
-            pieces.add(std::array{color, color, color, color});
+            file.add(std::array{color, color, color, color});
+            file.passOn(write);
         }
         for (std::uint32_t i = 0; i < quads.size(); ++i)
         {
             const std::uint32_t first = i * kVerticesOfQuad;
-            pieces.add(
+            file.add(
                 std::array<std::uint32_t, kIndicesOfQuad>{first, first + 1, first + 2, first, first + 2, first + 3});
+            file.passOn(write);
         }
     }
-    pieces.flush();
+    write(file.bytes());
 }
 
 } // namespace zvo

@@ -2,10 +2,7 @@
 #pragma once
 
 #include "core/tree/tree_data.h"
-
-#include <cstddef>
-#include <functional>
-#include <span>
+#include "io/voxel/voxel_bytes.h"
 
 namespace zvo
 {
@@ -15,6 +12,6 @@ namespace zvo
 /// of neighbours) of four vertices each. Voxels' colours become vertex colours, in linear 16-bit fractions. The node's
 /// translation and scale take cells to world space. Normals are those of the faces, and emission is left out. A tree
 /// without voxels gives a file without a mesh. Throws Error{Usage} for a mesh of 4 GiB and more.
-void writeGlb(const TreeData& tree, const std::function<void(std::span<const std::byte>)>& write);
+void writeGlb(const TreeData& tree, const WriteBytes& write);
 
 } // namespace zvo

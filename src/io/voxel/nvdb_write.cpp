@@ -2,6 +2,7 @@
 #include "io/voxel/nvdb_write.h"
 
 #include "core/base/morton.h"
+#include "io/voxel/voxel_bytes.h"
 #include "zvo/error.h"
 
 #include <fmt/format.h>
@@ -46,15 +47,12 @@ nanovdb::GridHandle<> gridOf(const TreeData& tree)
 {
     Builder builder(nanovdb::Rgba8(std::uint8_t{0}), nanovdb::GridClass::VoxelVolume);
     auto values = builder.getAccessor();
-    std::uint64_t voxel = 0;
-    forEachVoxel(tree,
-                 [&](std::uint64_t code)
-                 {
-                     const glm::ivec3 cell(cellOfCode(code));
-                     const std::uint32_t color = tree.hasAttributes() ? tree.voxelAttribute(voxel).color : kPlainColor;
-                     values.setValue({cell.x, cell.y, cell.z}, rgbaOf(color));
-                     ++voxel;
-                 });
+    forEachColoredVoxel(tree,
+                        [&](std::uint64_t code, std::uint32_t color)
+                        {
+                            const glm::ivec3 cell(cellOfCode(code));
+                            values.setValue({cell.x, cell.y, cell.z}, rgbaOf(color));
+                        });
     return handleOf(builder, tree.grid);
 }
 
@@ -86,7 +84,7 @@ nanovdb::GridHandle<> gridInMemory(const TreeData& tree)
 
 } // namespace
 
-void writeNvdb(const TreeData& tree, const std::function<void(std::span<const std::byte>)>& write)
+void writeNvdb(const TreeData& tree, const WriteBytes& write)
 {
     const nanovdb::GridHandle<> grid = gridInMemory(tree);
     const std::string head = headOf(grid);

@@ -2,10 +2,7 @@
 #pragma once
 
 #include "core/tree/tree_data.h"
-
-#include <cstddef>
-#include <functional>
-#include <span>
+#include "io/voxel/voxel_bytes.h"
 
 namespace zvo
 {
@@ -18,6 +15,6 @@ namespace zvo
 /// Error{Memory}, before anything is written, when the host has too little memory for these. One failure cannot be
 /// caught: NanoVDB finishes nodes in threads, and if the system cannot start all of them, or has no memory for their
 /// work, std::terminate ends the program.
-void writeNvdb(const TreeData& tree, const std::function<void(std::span<const std::byte>)>& write);
+void writeNvdb(const TreeData& tree, const WriteBytes& write);
 
 } // namespace zvo

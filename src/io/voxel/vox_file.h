@@ -6,11 +6,10 @@
 #pragma once
 
 #include "core/tree/tree_data.h"
+#include "io/voxel/voxel_bytes.h"
 
-#include <cstddef>
 #include <cstdint>
 #include <filesystem>
-#include <functional>
 #include <span>
 #include <string>
 #include <vector>
@@ -36,6 +35,6 @@ VoxVoxels readVox(std::span<const std::uint8_t> bytes, const std::filesystem::pa
 /// Hands the bytes of a .vox file to write, piece by piece: a model for each block of 256^3 voxels that has any, in
 /// Morton order, and 255 colours for those of the voxels (io/voxel/quantize.h). Normals and emission are left out.
 /// Throws Error{Usage} for more voxels than 2 GiB hold.
-void writeVox(const TreeData& tree, const std::function<void(std::span<const std::byte>)>& write);
+void writeVox(const TreeData& tree, const WriteBytes& write);
 
 } // namespace zvo

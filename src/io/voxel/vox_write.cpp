@@ -4,11 +4,11 @@
 #include "io/voxel/vox_file.h"
 #include "zvo/error.h"
 
-#include <algorithm>
-#include <bit>
-#include <cstring>
+#include <array>
 #include <fmt/format.h>
 #include <iterator>
+#include <string_view>
+#include <vector>
 
 namespace zvo
 {
@@ -16,18 +16,11 @@ namespace zvo
 namespace
 {
 
-static_assert(std::endian::native == std::endian::little); // numbers are written as they are in memory
-
 constexpr std::uint32_t kBlockBits = 8; // models of 256^3
 constexpr std::uint32_t kPaletteSize = 255;
 constexpr std::uint32_t kVersion = 200;
 constexpr std::uint64_t kChunkHeaderBytes = 12;
 constexpr std::uint64_t kSizeMax = INT32_MAX;
-
-std::uint32_t colorOf(const TreeData& tree, std::size_t voxel)
-{
-    return tree.hasAttributes() ? tree.voxelAttribute(voxel).color & (kColorCount - 1) : kPlainColor;
-}
 
 // Converts zvo's coordinates to MagicaVoxel's.
 glm::ivec3 turned(const glm::uvec3& cell)
@@ -46,40 +39,25 @@ struct Model
     [[nodiscard]] glm::ivec3 size() const { return max - min + 1; }
 };
 
-// Collects the bytes of chunks, little-endian.
-class Writer
+// Collects the bytes of chunks.
+class Writer : public ByteCollector
 {
 public:
-    void number(std::int64_t value) { append(static_cast<std::int32_t>(value)); }
-    void name(const char* id) { add(id, 4); }
-    void text(const std::string& value)
+    void number(std::int64_t value) { add(static_cast<std::int32_t>(value)); }
+    void text(std::string_view value)
     {
         number(static_cast<std::int64_t>(value.size()));
-        add(value.data(), value.size());
+        addText(value);
     }
-    template <typename T> void append(const T& value) { add(&value, sizeof(value)); }
 
     // Writes a chunk without children.
     void chunk(const char* id, const Writer& content)
     {
-        name(id);
-        number(static_cast<std::int64_t>(content.m_bytes.size()));
+        addText(id);
+        number(static_cast<std::int64_t>(content.bytes().size()));
         number(0);
-        add(content.m_bytes.data(), content.m_bytes.size());
+        append(content.bytes());
     }
-
-    [[nodiscard]] const std::vector<std::byte>& bytes() const { return m_bytes; }
-    void clear() { m_bytes.clear(); }
-
-private:
-    void add(const void* data, std::size_t size)
-    {
-        const std::size_t end = m_bytes.size();
-        m_bytes.resize(end + size);
-        std::memcpy(m_bytes.data() + end, data, size);
-    }
-
-    std::vector<std::byte> m_bytes;
 };
 
 // Writes a transform node above another node.
@@ -139,7 +117,7 @@ Writer paletteChunk(const Palette& palette)
     Writer content;
     for (std::size_t i = 0; i <= kPaletteSize; ++i) // 256 are written; the last one has no index
     {
-        content.append(i < palette.colors.size() ? palette.colors[i] | kOpaque : std::uint32_t{0});
+        content.add(i < palette.colors.size() ? palette.colors[i] | kOpaque : std::uint32_t{0});
     }
     Writer writer;
     writer.chunk("RGBA", content);
@@ -157,22 +135,21 @@ Contents contentsOf(const TreeData& tree)
 {
     Contents contents;
     std::uint64_t last_block = UINT64_MAX;
-    std::size_t voxel = 0;
-    forEachVoxel(tree,
-                 [&](std::uint64_t code)
-                 {
-                     if (code >> (3 * kBlockBits) != last_block)
-                     {
-                         contents.models.emplace_back();
-                         last_block = code >> (3 * kBlockBits);
-                     }
-                     Model& model = contents.models.back();
-                     const glm::ivec3 position = turned(cellOfCode(code));
-                     ++model.voxel_count;
-                     model.min = glm::min(model.min, position);
-                     model.max = glm::max(model.max, position);
-                     ++contents.color_counts[colorOf(tree, voxel++)];
-                 });
+    forEachColoredVoxel(tree,
+                        [&](std::uint64_t code, std::uint32_t color)
+                        {
+                            if (code >> (3 * kBlockBits) != last_block)
+                            {
+                                contents.models.emplace_back();
+                                last_block = code >> (3 * kBlockBits);
+                            }
+                            Model& model = contents.models.back();
+                            const glm::ivec3 position = turned(cellOfCode(code));
+                            ++model.voxel_count;
+                            model.min = glm::min(model.min, position);
+                            model.max = glm::max(model.max, position);
+                            ++contents.color_counts[color];
+                        });
     return contents;
 }
 
@@ -180,9 +157,9 @@ Contents contentsOf(const TreeData& tree)
 void addModelHead(Writer& writer, const Model& model)
 {
     Writer size;
-    size.append(model.size());
+    size.add(model.size());
     writer.chunk("SIZE", size);
-    writer.name("XYZI");
+    writer.addText("XYZI");
     writer.number(static_cast<std::int64_t>(4 + 4 * model.voxel_count));
     writer.number(0);
     writer.number(static_cast<std::int64_t>(model.voxel_count));
@@ -190,7 +167,7 @@ void addModelHead(Writer& writer, const Model& model)
 
 } // namespace
 
-void writeVox(const TreeData& tree, const std::function<void(std::span<const std::byte>)>& write)
+void writeVox(const TreeData& tree, const WriteBytes& write)
 {
     const auto [models, color_counts] = contentsOf(tree);
     const Palette palette = quantize(color_counts, kPaletteSize);
@@ -207,35 +184,29 @@ void writeVox(const TreeData& tree, const std::function<void(std::span<const std
     }
 
     Writer writer;
-    writer.name("VOX ");
+    writer.addText("VOX ");
     writer.number(kVersion);
-    writer.name("MAIN");
+    writer.addText("MAIN");
     writer.number(0);
     writer.number(static_cast<std::int64_t>(children_bytes));
-    constexpr std::size_t kPieceBytes = std::size_t{1} << 20;
     auto next_model = models.begin();
     std::uint64_t rest = 0; // voxels of the current model
-    std::size_t voxel = 0;
-    forEachVoxel(tree,
-                 [&](std::uint64_t code)
-                 {
-                     if (rest == 0)
-                     {
-                         addModelHead(writer, *next_model);
-                         rest = next_model++->voxel_count;
-                     }
-                     --rest;
-                     const glm::ivec3 position = turned(cellOfCode(code)) - std::prev(next_model)->min;
-                     const std::uint32_t index = palette.indices[colorOf(tree, voxel++)] + 1U;
-                     writer.append(static_cast<std::uint32_t>(position.x) |
-                                   static_cast<std::uint32_t>(position.y) << 8 |
-                                   static_cast<std::uint32_t>(position.z) << 16 | index << 24);
-                     if (writer.bytes().size() >= kPieceBytes)
-                     {
-                         write(writer.bytes());
-                         writer.clear();
-                     }
-                 });
+    forEachColoredVoxel(tree,
+                        [&](std::uint64_t code, std::uint32_t color)
+                        {
+                            if (rest == 0)
+                            {
+                                addModelHead(writer, *next_model);
+                                rest = next_model++->voxel_count;
+                            }
+                            --rest;
+                            const glm::ivec3 position = turned(cellOfCode(code)) - std::prev(next_model)->min;
+                            writer.add(std::array<std::uint8_t, 4>{
+                                static_cast<std::uint8_t>(position.x), static_cast<std::uint8_t>(position.y),
+                                static_cast<std::uint8_t>(position.z),
+                                static_cast<std::uint8_t>(palette.indices[color] + 1U)});
+                            writer.passOn(write);
+                        });
     write(writer.bytes());
     write(graph.bytes());
     write(colors.bytes());

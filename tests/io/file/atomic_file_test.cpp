@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "io/file/atomic_file.h"
 
+#include "support/errors.h"
 #include "support/temp_dir.h"
 #include "zvo/error.h"
 
@@ -60,20 +61,9 @@ std::size_t fileCount(const std::filesystem::path& folder)
     return static_cast<std::size_t>(std::distance(std::filesystem::directory_iterator(folder), {}));
 }
 
-template <typename Write> void expectOutputError(const Write& write, const std::string& part)
+void expectOutputError(const std::function<void()>& write, const std::string& part)
 {
-    try
-    {
-        write();
-        FAIL() << "no error where \"" << part << "\" was expected";
-    }
-    catch (const Error& error)
-    {
-        const std::string message = error.what();
-        EXPECT_EQ(error.code(), ErrorCode::Output) << message;
-        EXPECT_NE(message.find(part), std::string::npos) << message;
-        EXPECT_EQ(message.find('\n'), std::string::npos) << message;
-    }
+    test::expectParts(test::messageOf(write, ErrorCode::Output), {part});
 }
 
 TEST(AtomicFile, AppearsOnlyWhenCommitted)

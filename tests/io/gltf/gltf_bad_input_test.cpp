@@ -32,49 +32,9 @@ GltfBuilder texturedTriangle()
     return builder;
 }
 
-/// Expects that the file either loads or is refused in one line.
-void expectSceneOrInputError(const std::filesystem::path& path, const std::string& what)
+TEST(GltfBadInput, FilesMayBeCutOrHaveABitFlippedAnywhere)
 {
-    try
-    {
-        const Scene scene = loadGltf(path);
-        for (const Primitive& primitive : scene.primitives)
-        {
-            for (const glm::uvec3& triangle : primitive.triangles)
-            {
-                EXPECT_LT(std::max({triangle.x, triangle.y, triangle.z}), primitive.positions.size()) << what;
-            }
-        }
-    }
-    catch (const Error& error)
-    {
-        EXPECT_EQ(error.code(), ErrorCode::Input) << what << ": " << error.what();
-        EXPECT_FALSE(contains(error.what(), "\n")) << what << ": " << error.what();
-    }
-}
-
-TEST(GltfBadInput, EveryPrefixOfAFileIsRefused)
-{
-    const TempDir dir;
-    const std::vector<std::uint8_t> whole = texturedTriangle().glb();
-    for (std::size_t size = 0; size < whole.size(); ++size)
-    {
-        const auto path = dir.write("cut.glb", std::span(whole).first(size));
-        expectInputError([&] { loadGltf(path); }, {"cut.glb", size < 4 ? "not a glTF file" : "cut short"});
-    }
-    EXPECT_EQ(loadGltf(dir.write("whole.glb", whole)).triangleCount(), 1U);
-}
-
-TEST(GltfBadInput, ABitOfEveryByteMayBeFlipped)
-{
-    const TempDir dir;
-    const std::vector<std::uint8_t> whole = texturedTriangle().glb();
-    for (std::size_t at = 0; at < whole.size(); ++at)
-    {
-        std::vector<std::uint8_t> damaged = whole;
-        damaged[at] = static_cast<std::uint8_t>(damaged[at] ^ (1U << (at % 8)));
-        expectSceneOrInputError(dir.write("flipped.glb", damaged), "byte " + std::to_string(at));
-    }
+    loadCutAndFlipped(texturedTriangle());
 }
 
 /// A folder with a document, and a buffer outside that would fit it.
@@ -174,9 +134,7 @@ TEST_F(GltfFolder, ImagesMayNotLeaveItEither)
     const auto path = m_dir.write("folder/scene.glb", builder.glb());
     const Scene scene = loadGltf(path);
     EXPECT_TRUE(scene.images.empty());
-    ASSERT_EQ(scene.warnings.size(), 1U);
-    EXPECT_TRUE(contains(scene.warnings[0], "images[0].uri is ../outside.png, which leaves the document's folder"))
-        << scene.warnings[0];
+    expectOneLine(scene.warnings, {"images[0].uri is ../outside.png, which leaves the document's folder"});
 }
 
 TEST_F(GltfFolder, ManyBuffersMayLieInOneFileThatIsReadOnce)
@@ -203,7 +161,7 @@ TEST(GltfBadInput, MalformedDataUrisAreRefused)
         GltfBuilder builder = triangleDocument();
         builder.document["buffers"] = json::array({{{"byteLength", 36}, {"uri", uri}}});
         SCOPED_TRACE(uri);
-        expectInputError([&] { static_cast<void>(builder.load()); }, {"buffers[0].uri is not a valid data URI"});
+        expectInputError(builder, {"buffers[0].uri is not a valid data URI"});
     }
 }
 
@@ -215,7 +173,7 @@ TEST(GltfBadInput, InstancesAreCountedBeforeTheyAreMade)
     static_assert(kEach * kEach > kInstancesMax && (kEach - 1) * (kEach - 1) <= kInstancesMax);
     primitives = std::vector<json>(kEach, primitives[0]);
     builder.document["nodes"] = std::vector<json>(kEach, json{{"mesh", 0}});
-    expectInputError([&] { static_cast<void>(builder.load()); }, {"16785409 primitives", "split the file"});
+    expectInputError(builder, {"16785409 primitives", "split the file"});
 }
 
 TEST(GltfBadInput, TrianglesAreCountedBeforeTheyAreRead)
@@ -225,7 +183,7 @@ TEST(GltfBadInput, TrianglesAreCountedBeforeTheyAreRead)
     builder.document["meshes"][0]["primitives"][0]["indices"] =
         builder.addAccessor<std::uint8_t>("SCALAR", kU8, 3 * kTriangles, std::vector<std::uint8_t>(3 * kTriangles));
     builder.document["nodes"] = std::vector<json>((1U << 16U) + 1, json{{"mesh", 0}});
-    expectInputError([&] { static_cast<void>(builder.load()); }, {"e+09 triangles", "split the file"});
+    expectInputError(builder, {"e+09 triangles", "split the file"});
 }
 
 TEST(GltfBadInput, MeshesThatShareOneBufferMayNotFillTheMemory)
@@ -236,7 +194,7 @@ TEST(GltfBadInput, MeshesThatShareOneBufferMayNotFillTheMemory)
     const json primitive = {{"attributes", {{"POSITION", builder.addPositions(std::vector<float>(3 * kVertices))}}}};
     builder.add("nodes", {{"mesh", 0}});
     builder.add("meshes", {{"primitives", std::vector<json>(sceneBytesMax() / kPrimitiveBytes + 1, primitive)}});
-    expectInputError([&] { static_cast<void>(builder.load()); }, {"half of this machine's memory"});
+    expectInputError(builder, {"half of this machine's memory"});
 }
 
 TEST(GltfBadInput, AbsurdCountsAreRefused)
@@ -246,15 +204,15 @@ TEST(GltfBadInput, AbsurdCountsAreRefused)
         SCOPED_TRACE(count);
         GltfBuilder builder = triangleDocument();
         builder.document["accessors"][0]["count"] = count;
-        expectInputError([&] { static_cast<void>(builder.load()); }, {"accessors[0]", std::to_string(count)});
+        expectInputError(builder, {"accessors[0]", std::to_string(count)});
         builder.document["accessors"][0].erase("bufferView");
-        expectInputError([&] { static_cast<void>(builder.load()); }, {"scene.glb"});
+        expectInputError(builder, {"scene.glb"});
         builder = triangleDocument();
         builder.document["buffers"] = json::array({{{"byteLength", count}}});
-        expectInputError([&] { static_cast<void>(builder.load()); }, {"buffers[0] needs"});
+        expectInputError(builder, {"buffers[0] needs"});
         builder = triangleDocument();
         builder.document["bufferViews"][0]["byteStride"] = count; // one that is not from 4 to 252 in steps of 4
-        expectInputError([&] { static_cast<void>(builder.load()); }, {"scene.glb"});
+        expectInputError(builder, {"scene.glb"});
     }
 }
 
@@ -281,7 +239,7 @@ TEST(GltfBadInput, LongChainsOfNodesNeedNoStack)
 
 TEST(GltfBadInput, NestingUpToTheLimitNeedsLittleStack)
 {
-    // tinygltf reads extras and extensions of every kind of object recursively.
+    // Extras and extensions of every kind of object may be nested.
     json nest = 1;
     for (int depth = 0; depth < 240; ++depth)
     {

@@ -5,7 +5,6 @@
 #include "gltf_builder.h"
 #include "io/image/image_io.h"
 
-#include <functional>
 #include <gtest/gtest.h>
 #include <random>
 
@@ -18,11 +17,9 @@ namespace
 constexpr const char* kHint = "export it again";
 
 /// Changes the triangle document, loads it as .glb, and expects an error with the parts.
-void expectBroken(const std::function<void(GltfBuilder&)>& change, std::initializer_list<std::string> parts)
+void expectBroken(const Change& change, std::initializer_list<std::string> parts)
 {
-    GltfBuilder builder = triangleDocument();
-    change(builder);
-    expectInputError([&] { static_cast<void>(builder.load()); }, parts);
+    expectInputError(triangleDocument(), change, parts);
 }
 
 void expectBrokenFile(const std::string& name, std::string_view content, std::initializer_list<std::string> parts)
@@ -102,125 +99,88 @@ TEST(GltfErrors, GlbWithWrongChunksIsRefused)
 
 TEST(GltfErrors, RequiredExtensionsThatAreUnknownAreNamed)
 {
-    expectBroken([](GltfBuilder& b) { b.document["extensionsRequired"] = {"KHR_unheard_of"}; },
+    expectBroken(set("/extensionsRequired", {"KHR_unheard_of"}),
                  {"KHR_unheard_of", "not supported", "export it without"});
-    expectBroken([](GltfBuilder& b) { b.document["extensionsRequired"] = {"NEW\nLINE"}; }, {"NEW LINE"});
+    expectBroken(set("/extensionsRequired", {"NEW\nLINE"}), {"NEW LINE"});
 }
 
 TEST(GltfErrors, WrongTypesAndIndicesAreNamedByTheirPlace)
 {
-    const auto primitive = [](GltfBuilder& b) -> json& { return b.document["meshes"][0]["primitives"][0]; };
-    expectBroken([](GltfBuilder& b) { b.document["nodes"][0]["mesh"] = 7; },
-                 {"nodes[0].mesh is 7, but the file has 1 meshes", kHint});
-    expectBroken([](GltfBuilder& b) { b.document["nodes"][0]["mesh"] = "a"; }, {"nodes[0].mesh is not a whole number"});
-    expectBroken([](GltfBuilder& b) { b.document["nodes"][0]["mesh"] = -1; }, {"nodes[0].mesh is not a whole number"});
-    expectBroken([](GltfBuilder& b) { b.document["nodes"][0]["mesh"] = 1ULL << 32U; }, {"nodes[0].mesh is 4294967296"});
-    expectBroken([](GltfBuilder& b) { b.document["nodes"][0]["matrix"] = {1, 2}; }, {"array of 16 numbers"});
-    expectBroken([](GltfBuilder& b) { b.document["nodes"] = 3; }, {"nodes is not an array"});
-    expectBroken([](GltfBuilder& b) { b.document["nodes"][0] = 3; }, {"nodes[0] is not an object"});
-    expectBroken([](GltfBuilder& b) { b.document["scenes"] = {{{"nodes", {1}}}}; }, {"scenes[0].nodes[0] is 1"});
-    expectBroken([](GltfBuilder& b) { b.document["scene"] = 0; }, {"scene is 0, but the file has 0 scenes"});
-    expectBroken([](GltfBuilder& b) { b.document["accessors"][0].erase("count"); }, {"accessors[0] has no count"});
-    expectBroken([&](GltfBuilder& b) { primitive(b).erase("attributes"); }, {"primitives[0] has no attributes"});
-    expectBroken([&](GltfBuilder& b) { primitive(b)["attributes"]["POSITION"] = 5; }, {"attributes.POSITION is 5"});
-    expectBroken([&](GltfBuilder& b) { primitive(b)["material"] = 0; }, {"0 materials"});
-    expectBroken([&](GltfBuilder& b) { primitive(b)["mode"] = 9; }, {"mode is 9"});
+    expectBroken(set("/nodes/0/mesh", 7), {"nodes[0].mesh is 7, but the file has 1 meshes", kHint});
+    expectBroken(set("/nodes/0/mesh", "a"), {"nodes[0].mesh is not a whole number"});
+    expectBroken(set("/nodes/0/mesh", -1), {"nodes[0].mesh is not a whole number"});
+    expectBroken(set("/nodes/0/mesh", 1ULL << 32U), {"nodes[0].mesh is 4294967296"});
+    expectBroken(set("/nodes/0/matrix", {1, 2}), {"array of 16 numbers"});
+    expectBroken(set("/nodes", 3), {"nodes is not an array"});
+    expectBroken(set("/nodes/0", 3), {"nodes[0] is not an object"});
+    expectBroken(set("/scenes", {{{"nodes", {1}}}}), {"scenes[0].nodes[0] is 1"});
+    expectBroken(set("/scene", 0), {"scene is 0, but the file has 0 scenes"});
+    expectBroken(without("/accessors/0/count"), {"accessors[0] has no count"});
+    expectBroken(without("/meshes/0/primitives/0/attributes"), {"primitives[0] has no attributes"});
+    expectBroken(set("/meshes/0/primitives/0/attributes/POSITION", 5), {"attributes.POSITION is 5"});
+    expectBroken(set("/meshes/0/primitives/0/material", 0), {"0 materials"});
+    expectBroken(set("/meshes/0/primitives/0/mode", 9), {"mode is 9"});
 }
 
 TEST(GltfErrors, TransformsThatAreNotAffineOrTooLargeAreRefused)
 {
-    expectBroken([](GltfBuilder& b)
-                 { b.document["nodes"][0]["matrix"] = {1, 0, 0, 1, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}; },
+    expectBroken(set("/nodes/0/matrix", {1, 0, 0, 1, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}),
                  {"last row of nodes[0].matrix"});
-    expectBroken(
-        [](GltfBuilder& b) {
-            b.document["nodes"][0]["scale"] = {1e300, 1, 1};
-        },
-        {"overflows single precision"});
+    expectBroken(set("/nodes/0/scale", {1e300, 1, 1}), {"overflows single precision"});
 }
 
 TEST(GltfErrors, AccessorsMustLieInsideTheirViewsAndBuffers)
 {
-    const auto accessor = [](GltfBuilder& b) -> json& { return b.document["accessors"][0]; };
-    const auto view = [](GltfBuilder& b) -> json& { return b.document["bufferViews"][0]; };
     constexpr std::uint64_t kHuge = ~0ULL;
-    expectBroken([&](GltfBuilder& b) { accessor(b)["count"] = 4; },
+    expectBroken(set("/accessors/0/count", 4),
                  {"accessors[0] (POSITION of meshes[0].primitives[0]) takes 4 elements", "has 36 bytes", kHint});
-    expectBroken([&](GltfBuilder& b) { accessor(b)["count"] = kHuge; }, {"elements of 12 bytes"});
-    expectBroken([&](GltfBuilder& b) { accessor(b)["byteOffset"] = 1; }, {"at 1 of bufferViews[0]"});
-    expectBroken([&](GltfBuilder& b) { accessor(b)["byteOffset"] = kHuge; }, {"of bufferViews[0]"});
-    expectBroken([&](GltfBuilder& b) { view(b)["byteStride"] = 252; }, {"252 apart"});
-    expectBroken([&](GltfBuilder& b) { view(b)["byteStride"] = 8; }, {"elements of 12 bytes, 8 apart"});
-    expectBroken([&](GltfBuilder& b) { view(b)["byteStride"] = 7; }, {"byteStride", kHint});
-    expectBroken([&](GltfBuilder& b) { view(b)["byteLength"] = 37; }, {"bufferViews[0] takes 37 bytes", "has 36"});
-    expectBroken([&](GltfBuilder& b) { view(b)["byteOffset"] = kHuge; }, {"bufferViews[0] takes 36 bytes"});
-    expectBroken([&](GltfBuilder& b) { accessor(b)["type"] = "MAT3"; }, {"element type that nothing has"});
-    expectBroken([&](GltfBuilder& b) { accessor(b)["type"] = "VEC9"; }, {"VEC9"});
-    expectBroken([&](GltfBuilder& b) { accessor(b)["componentType"] = 5124; }, {"component type 5124"});
-    expectBroken([&](GltfBuilder& b) { accessor(b)["componentType"] = kU8; }, {"does not allow there"});
+    expectBroken(set("/accessors/0/count", kHuge), {"elements of 12 bytes"});
+    expectBroken(set("/accessors/0/byteOffset", 1), {"at 1 of bufferViews[0]"});
+    expectBroken(set("/accessors/0/byteOffset", kHuge), {"of bufferViews[0]"});
+    expectBroken(set("/bufferViews/0/byteStride", 252), {"252 apart"});
+    expectBroken(set("/bufferViews/0/byteStride", 8), {"elements of 12 bytes, 8 apart"});
+    expectBroken(set("/bufferViews/0/byteStride", 7), {"byteStride", kHint});
+    expectBroken(set("/bufferViews/0/byteLength", 37), {"bufferViews[0] takes 37 bytes", "has 36"});
+    expectBroken(set("/bufferViews/0/byteOffset", kHuge), {"bufferViews[0] takes 36 bytes"});
+    expectBroken(set("/accessors/0/type", "MAT3"), {"element type that nothing has"});
+    expectBroken(set("/accessors/0/type", "VEC9"), {"VEC9"});
+    expectBroken(set("/accessors/0/componentType", 5124), {"component type 5124"});
+    expectBroken(set("/accessors/0/componentType", kU8), {"does not allow there"});
 }
 
 TEST(GltfErrors, AttributesMustFitTheVertices)
 {
-    const auto add = [](GltfBuilder& b, const char* name, std::size_t accessor)
-    { b.document["meshes"][0]["primitives"][0]["attributes"][name] = accessor; };
-    expectBroken(
-        [&](GltfBuilder& b) {
-            add(b, "NORMAL", b.addPositions({0, 0, 1}));
-        },
-        {"NORMAL of meshes[0].primitives[0]", "1 elements for 3 vertices"});
-    expectBroken(
-        [&](GltfBuilder& b) {
-            add(b, "TEXCOORD_0", b.addAccessor<std::uint8_t>("VEC2", kU8, 3, {1, 2, 3, 4, 5, 6}));
-        },
-        {"TEXCOORD_0", "not normalized"});
-    expectBroken(
-        [&](GltfBuilder& b) {
-            add(b, "COLOR_0", b.addAccessor<float>("VEC2", kF32, 3, {1, 2, 3, 4, 5, 6}));
-        },
-        {"COLOR_0", "does not allow there"});
+    const std::string attributes = "/meshes/0/primitives/0/attributes/";
+    const std::vector<std::uint8_t> bytes = {1, 2, 3, 4, 5, 6};
+    const std::vector<float> numbers = {1, 2, 3, 4, 5, 6};
+    const auto one = [](GltfBuilder& b) { return b.addPositions(std::vector<float>{0, 0, 1}); };
+    expectBroken(setTo(attributes + "NORMAL", one), {"NORMAL of meshes[0].primitives[0]", "1 elements for 3 vertices"});
+    expectBroken(setTo(attributes + "TEXCOORD_0", [&](auto& b) { return b.addAccessor("VEC2", kU8, 3, bytes); }),
+                 {"TEXCOORD_0", "not normalized"});
+    expectBroken(setTo(attributes + "COLOR_0", [&](auto& b) { return b.addAccessor("VEC2", kF32, 3, numbers); }),
+                 {"COLOR_0", "does not allow there"});
 }
 
 TEST(GltfErrors, IndicesMustNameVertices)
 {
-    const auto add = [](GltfBuilder& b, std::size_t accessor)
-    { b.document["meshes"][0]["primitives"][0]["indices"] = accessor; };
+    const std::vector<std::uint8_t> bytes = {0, 1, 3};
+    const std::vector<float> numbers = {0, 1, 2};
+    const char* const indices = "/meshes/0/primitives/0/indices";
     expectBroken(
-        [&](GltfBuilder& b) {
-            add(b, b.addAccessor<std::uint8_t>("SCALAR", kU8, 3, {0, 1, 3}));
-        },
+        setTo(indices, [&](auto& b) { return b.addAccessor("SCALAR", kU8, 3, bytes); }),
         {"element 2 of accessors[1] (indices of meshes[0].primitives[0]) is vertex 3, but there are 3", kHint});
-    expectBroken(
-        [&](GltfBuilder& b) {
-            add(b, b.addAccessor<float>("SCALAR", kF32, 3, {0, 1, 2}));
-        },
-        {"does not allow there"});
+    expectBroken(setTo(indices, [&](auto& b) { return b.addAccessor("SCALAR", kF32, 3, numbers); }),
+                 {"does not allow there"});
 }
 
 TEST(GltfErrors, BuffersMustBeThereAndLongEnough)
 {
-    const auto set = [](GltfBuilder& b, const json& buffer) { b.document["buffers"] = json::array({buffer}); };
-    expectBroken(
-        [&](GltfBuilder& b) {
-            set(b, {{"byteLength", 36}, {"uri", "missing.bin"}});
-        },
-        {"buffers[0].uri is missing.bin", "no such file"});
-    expectBroken([&](GltfBuilder& b) { set(b, {{"byteLength", 41}}); }, {"buffers[0] needs 41 bytes", "has 36"});
-    expectBroken(
-        [&](GltfBuilder& b) {
-            set(b, {{"byteLength", 36}, {"uri", "data:;base64,A*"}});
-        },
-        {"buffers[0].uri is not a valid data URI"});
-    expectBroken(
-        [&](GltfBuilder& b) {
-            set(b, {{"byteLength", 36}, {"uri", "data:;base64,AAAA"}});
-        },
-        {"buffers[0] needs 36 bytes", "has 3"});
-    expectBroken(
-        [&](GltfBuilder& b) {
-            set(b, {{"byteLength", 36}, {"uri", "https://example.com/a.bin"}});
-        },
-        {"https://example.com/a.bin", "download it"});
+    const auto with = [](const char* uri) { return set("/buffers", {{{"byteLength", 36}, {"uri", uri}}}); };
+    expectBroken(with("missing.bin"), {"buffers[0].uri is missing.bin", "no such file"});
+    expectBroken(set("/buffers", {{{"byteLength", 41}}}), {"buffers[0] needs 41 bytes", "has 36"});
+    expectBroken(with("data:;base64,A*"), {"buffers[0].uri is not a valid data URI"});
+    expectBroken(with("data:;base64,AAAA"), {"buffers[0] needs 36 bytes", "has 3"});
+    expectBroken(with("https://example.com/a.bin"), {"https://example.com/a.bin", "download it"});
     expectBrokenFile("none.gltf", R"({"asset": {"version": "2.0"}, "buffers": [{"byteLength": 1}]})",
                      {"buffers[0] has neither a URI nor a binary chunk"});
 }
@@ -244,19 +204,11 @@ TEST(GltfErrors, MaterialsMustBePossible)
 TEST(GltfErrors, LongMessagesAreShortened)
 {
     const std::string name(5000, 'x');
-    try
-    {
-        GltfBuilder builder = triangleDocument();
-        builder.document["extensionsRequired"] = {name};
-        static_cast<void>(builder.load());
-        FAIL();
-    }
-    catch (const Error& error)
-    {
-        const std::string message = error.what();
-        EXPECT_LT(message.size(), 700U);
-        EXPECT_TRUE(contains(message, "export it without")) << message;
-    }
+    GltfBuilder builder = triangleDocument();
+    builder.document["extensionsRequired"] = {name};
+    const std::string message = messageOf([&] { static_cast<void>(builder.load()); }, ErrorCode::Input);
+    EXPECT_LT(message.size(), 700U);
+    expectParts(message, {"export it without"});
 }
 
 TEST(GltfErrors, DamagedBytesGiveASceneOrAnInputError)
@@ -281,16 +233,7 @@ TEST(GltfErrors, DamagedBytesGiveASceneOrAnInputError)
             damaged[random() % damaged.size()] =
                 static_cast<std::uint8_t>(likely ? kLikely[random() % kLikely.size()] : random());
         }
-        const auto path = dir.write("damaged.glb", damaged);
-        try
-        {
-            loadGltf(path);
-        }
-        catch (const Error& error)
-        {
-            EXPECT_EQ(error.code(), ErrorCode::Input) << error.what();
-            EXPECT_FALSE(contains(error.what(), "\n")) << error.what();
-        }
+        expectSceneOrInputError(dir.write("damaged.glb", damaged));
     }
 }
 

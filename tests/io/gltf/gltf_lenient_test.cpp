@@ -30,7 +30,7 @@ Scene loadWithOneWarning(const GltfBuilder& builder, std::initializer_list<std::
             EXPECT_TRUE(contains(warning, part)) << '"' << part << "\" is not in: " << warning;
         }
     }
-    expectInputError([&] { static_cast<void>(loadScene(std::span(&path, 1), {.strict = true})); }, parts);
+    expectInputError([&] { return loadScene(std::span(&path, 1), {.strict = true}); }, parts);
     return scene;
 }
 
@@ -83,7 +83,7 @@ TEST(GltfLenient, FaultsInWhatNothingNeedsCostNothing)
         builder.document["meshes"][0]["primitives"][0]["attributes"]["TANGENT"] = 1; // is not read
         EXPECT_EQ(loadWithOneWarning(builder, {kind, fault}).triangleCount(), 1U);
         builder.document["meshes"][0]["primitives"][0]["attributes"]["NORMAL"] = 1;
-        expectInputError([&] { static_cast<void>(builder.load()); }, {"scene.glb: accessors[1]", fault});
+        expectInputError(builder, {"scene.glb: accessors[1]", fault});
     }
     // Data that is outside of its buffer, or does not unpack, is not even looked at.
     GltfBuilder builder = triangleDocument();
@@ -94,7 +94,7 @@ TEST(GltfLenient, FaultsInWhatNothingNeedsCostNothing)
                 {{"buffer", 0}, {"byteLength", 36}, {"extensions", {{"EXT_meshopt_compression", meshopt}}}});
     EXPECT_TRUE(builder.load().warnings.empty());
     builder.document["accessors"][0]["bufferView"] = 2;
-    expectInputError([&] { static_cast<void>(builder.load()); }, {"bufferViews[2].extensions", "does not decode"});
+    expectInputError(builder, {"bufferViews[2].extensions", "does not decode"});
 }
 
 TEST(GltfLenient, FaultsInOtherPartsCostNothingEither)
@@ -147,7 +147,7 @@ TEST(GltfLenient, EmissionIsReadWhereThereIsSome)
     builder.add("materials", material);
     static_cast<void>(loadWithOneWarning(builder, {"materials[0].emissiveTexture.index is 4", "and 1 more"}));
     builder.document["materials"][0]["emissiveFactor"] = {0, 1, 0};
-    expectInputError([&] { static_cast<void>(builder.load()); }, {"materials[0].emissiveTexture.index is 4"});
+    expectInputError(builder, {"materials[0].emissiveTexture.index is 4"});
 }
 
 TEST(GltfLenient, WholeNumbersMayHaveADecimalPoint)
@@ -165,7 +165,7 @@ TEST(GltfLenient, WholeNumbersMayHaveADecimalPoint)
     for (const json& value : {json(0.5), json(-1.0), json(1e300), json(1.0)})
     {
         builder.document["nodes"][0]["mesh"] = value;
-        expectInputError([&] { static_cast<void>(builder.load()); }, {"nodes[0].mesh is "});
+        expectInputError(builder, {"nodes[0].mesh is "});
     }
 }
 

@@ -70,14 +70,13 @@ TEST(LoadScene, StrictRefusesWhatWouldBeLeftOut)
     builder.document["meshes"][0]["primitives"][1]["mode"] = kPoints;
     const std::filesystem::path points = dir.write("points.glb", builder.glb());
     EXPECT_EQ(loadScene(std::span(&points, 1)).warnings.size(), 1U);
-    expectInputError([&] { static_cast<void>(loadScene(std::span(&points, 1), {.strict = true})); },
+    expectInputError([&] { return loadScene(std::span(&points, 1), {.strict = true}); },
                      {"points.glb: points and lines left out", "strict loading refuses the file"});
     const std::filesystem::path scene = dir.write("a.scene.json", R"({"objects": [{"file": "points.glb"}]})");
     EXPECT_EQ(loadAnimatedScene(scene).warnings.size(), 1U);
     AnimatedSceneOptions strict;
     strict.load.strict = true;
-    expectInputError([&] { static_cast<void>(loadAnimatedScene(scene, strict)); },
-                     {"points.glb: points and lines left out"});
+    expectInputError([&] { return loadAnimatedScene(scene, strict); }, {"points.glb: points and lines left out"});
 }
 
 TEST(LoadScene, UpTurnsTheAxisToYWithoutMirroring)
@@ -188,11 +187,7 @@ TEST(LoadScene, HullsAreLeftOutWithAWarning)
     const std::filesystem::path path = dir.write("toon.glb", toonGlb(false));
     const Scene scene = loadScene(std::span(&path, 1));
     EXPECT_EQ(scene.instances.size(), 2U);
-    ASSERT_EQ(scene.warnings.size(), 1U);
-    for (const char* part : {"toon.glb", "1 inverted hull,", "material outline", "--keep-hulls"})
-    {
-        EXPECT_NE(scene.warnings[0].find(part), std::string::npos) << scene.warnings[0];
-    }
+    expectOneLine(scene.warnings, {"toon.glb", "1 inverted hull,", "material outline", "--keep-hulls"});
     const Scene kept = loadScene(std::span(&path, 1), {.keep_hulls = true});
     EXPECT_EQ(kept.instances.size(), 3U);
     EXPECT_TRUE(kept.warnings.empty());

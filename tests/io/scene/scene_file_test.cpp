@@ -358,10 +358,9 @@ TEST(SceneFile, DamagedTextIsReadOrIsAnInputError)
                 break;
             }
         }
-        try
+        const auto read = [&]
         {
             const SceneFile file = parse(damaged);
-            ++read_count;
             EXPECT_GT(file.seconds, 0.0);
             EXPECT_GT(file.frames_per_second, 0.0);
             EXPECT_FALSE(file.objects.empty());
@@ -370,12 +369,8 @@ TEST(SceneFile, DamagedTextIsReadOrIsAnInputError)
                 const glm::dmat4 place = motionAt(object.motion, 0.7 * file.seconds) * object.transform;
                 EXPECT_TRUE(std::isfinite(glm::dot(place[0] + place[1] + place[2] + place[3], glm::dvec4(1.0))));
             }
-        }
-        catch (const Error& error)
-        {
-            EXPECT_EQ(error.code(), ErrorCode::Input) << error.what();
-            EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos);
-        }
+        };
+        read_count += loadsOrIsRefused(read) ? 1 : 0;
     }
     EXPECT_GT(read_count, kRounds / 100) << "most of the damage is found by the parser";
 }

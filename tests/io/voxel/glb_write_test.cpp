@@ -6,6 +6,7 @@
 #include "io/gltf/gltf_loader.h"
 #include "support/temp_dir.h"
 #include "support/tree_samples.h"
+#include "written_bytes.h"
 
 #include <gtest/gtest.h>
 
@@ -21,14 +22,6 @@ namespace zvo::test
 {
 namespace
 {
-
-std::string glbOf(const TreeData& tree)
-{
-    std::string bytes;
-    writeGlb(tree, [&bytes](std::span<const std::byte> more)
-             { bytes.append(reinterpret_cast<const char*>(more.data()), more.size()); });
-    return bytes;
-}
 
 template <typename T> T at(const std::string& bytes, std::size_t offset)
 {
@@ -81,7 +74,7 @@ int encodedSrgb(std::uint16_t linear)
 
 void expectFaces(const TreeData& tree, const std::string& name)
 {
-    const std::string file = glbOf(tree);
+    const std::string file = writtenBytes(writeGlb, tree);
     ASSERT_EQ(at<std::uint32_t>(file, 8), file.size()) << name;
     const auto json_bytes = at<std::uint32_t>(file, 12);
     const nlohmann::json document = nlohmann::json::parse(file.substr(20, json_bytes));
@@ -149,7 +142,7 @@ TEST(GlbWrite, AFullGridIsSixRectangles)
     {
         if (sample.name == "full_8")
         {
-            const std::string file = glbOf(sample.tree);
+            const std::string file = writtenBytes(writeGlb, sample.tree);
             const nlohmann::json document = nlohmann::json::parse(file.substr(20, at<std::uint32_t>(file, 12)));
             EXPECT_EQ(document["accessors"][2]["count"], 36);
         }
@@ -161,7 +154,7 @@ TEST(GlbWrite, TheLoaderFindsTheVoxelsInWorldSpace)
     const TempDir dir;
     for (const TreeSample& sample : treeSamples())
     {
-        const Scene scene = loadGltf(dir.write(sample.name + ".glb", glbOf(sample.tree)));
+        const Scene scene = loadGltf(dir.write(sample.name + ".glb", writtenBytes(writeGlb, sample.tree)));
         const std::optional<CellBox> box = voxelBox(sample.tree);
         ASSERT_EQ(scene.triangleCount() != 0, box.has_value()) << sample.name;
         if (box)

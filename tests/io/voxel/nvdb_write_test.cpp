@@ -5,6 +5,7 @@
 #include "core/base/morton.h"
 #include "support/temp_dir.h"
 #include "support/tree_samples.h"
+#include "written_bytes.h"
 #include "zvo/error.h"
 
 #include <iostream> // GridValidator.h does not include it
@@ -33,14 +34,6 @@ namespace zvo::test
 namespace
 {
 
-std::string nvdbOf(const TreeData& tree)
-{
-    std::string bytes;
-    writeNvdb(tree, [&bytes](std::span<const std::byte> more)
-              { bytes.append(reinterpret_cast<const char*>(more.data()), more.size()); });
-    return bytes;
-}
-
 std::uint64_t activeCount(const nanovdb::NanoGrid<nanovdb::Rgba8>& grid)
 {
     std::uint64_t count = 0;
@@ -58,7 +51,7 @@ TEST(NvdbWrite, ActiveValuesAreTheVoxelsInTheirColors)
     for (const TreeSample& sample : treeSamples())
     {
         const TreeData& tree = sample.tree;
-        const auto path = dir.write(sample.name + ".nvdb", nvdbOf(tree));
+        const auto path = dir.write(sample.name + ".nvdb", writtenBytes(writeNvdb, tree));
         const nanovdb::GridHandle<> handle = nanovdb::io::readGrid(path.string(), "zvo");
         const auto* const grid = handle.grid<nanovdb::Rgba8>();
         ASSERT_NE(grid, nullptr) << sample.name;
@@ -90,7 +83,7 @@ TEST(NvdbWrite, PlacesAreThoseOfTheCentersOfVoxels)
     tree.grid.origin = {-3.5F, 2.0F, 0.125F};
     tree.grid.voxel_size = 0.25F;
     const TempDir dir;
-    const auto path = dir.write("a.nvdb", nvdbOf(tree));
+    const auto path = dir.write("a.nvdb", writtenBytes(writeNvdb, tree));
     const nanovdb::GridHandle<> handle = nanovdb::io::readGrid(path.string());
     const nanovdb::Vec3d world = handle.gridMetaData()->map().applyMap(nanovdb::Vec3d(4.0, 0.0, 2.0));
     EXPECT_EQ(world[0], -3.5 + 0.25 * 4.5);
@@ -106,7 +99,8 @@ TEST(NvdbWrite, GivesTheSameBytesForEqualVoxels)
     {
         if (samples[i].name == samples[i - 1].name + "_dag")
         {
-            EXPECT_EQ(nvdbOf(samples[i].tree), nvdbOf(samples[i - 1].tree)) << samples[i].name;
+            EXPECT_EQ(writtenBytes(writeNvdb, samples[i].tree), writtenBytes(writeNvdb, samples[i - 1].tree))
+                << samples[i].name;
             ++dag_count;
         }
     }
@@ -186,7 +180,7 @@ TEST(NvdbWrite, TooLittleMemoryIsSaidBeforeAnythingIsWritten)
         }
     }
     EXPECT_GE(failed_count, 8U) << "there was no room for the grid";
-    EXPECT_EQ(written_bytes, nvdbOf(tree).size());
+    EXPECT_EQ(written_bytes, writtenBytes(writeNvdb, tree).size());
 }
 
 } // namespace

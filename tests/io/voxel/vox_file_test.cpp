@@ -5,9 +5,11 @@
 #include "core/base/morton.h"
 #include "core/file/tree_check.h"
 #include "core/tree/tree_build.h"
+#include "support/errors.h"
 #include "support/mesh_files.h"
 #include "support/sweep.h"
 #include "support/tree_samples.h"
+#include "written_bytes.h"
 #include "zvo/error.h"
 
 #include <gtest/gtest.h>
@@ -90,27 +92,9 @@ VoxVoxels read(const std::string& file)
     return readVox(std::span(reinterpret_cast<const std::uint8_t*>(file.data()), file.size()), "a.vox");
 }
 
-std::string refusalOf(const std::string& file)
+bool isRead(const std::string& file)
 {
-    try
-    {
-        static_cast<void>(read(file));
-        return "";
-    }
-    catch (const Error& error)
-    {
-        EXPECT_EQ(error.code(), ErrorCode::Input);
-        EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos);
-        return error.what();
-    }
-}
-
-std::string writtenVox(const TreeData& tree)
-{
-    std::string bytes;
-    writeVox(tree, [&bytes](std::span<const std::byte> more)
-             { bytes.append(reinterpret_cast<const char*>(more.data()), more.size()); });
-    return bytes;
+    return loadsOrIsRefused([&] { static_cast<void>(read(file)); });
 }
 
 // Colours at MagicaVoxel's world coordinates.
@@ -189,7 +173,7 @@ TEST(VoxFile, WhatIsWrongHasItsMessage)
     const std::string one = model(1, 1, 1, std::string("\0\0\0\1", 4));
     const std::string scene = one + transform(0, 1, {}) + shape(1, 0);
     const std::string good = voxFile(scene);
-    ASSERT_EQ(refusalOf(good), "");
+    ASSERT_TRUE(isRead(good));
     const std::vector<std::pair<std::string, const char*>> faults = {
         {"", "not a MagicaVoxel file"},
         {"VOX!" + good.substr(4), "not a MagicaVoxel file"},
@@ -218,12 +202,11 @@ TEST(VoxFile, WhatIsWrongHasItsMessage)
     };
     for (const auto& [file, words] : faults)
     {
-        const std::string message = refusalOf(file);
-        EXPECT_NE(message.find(words), std::string::npos) << words << ": " << message;
+        expectParts(messageOf([&] { static_cast<void>(read(file)); }, ErrorCode::Input), {words});
     }
     for (std::size_t size = 0; size < good.size(); ++size)
     {
-        EXPECT_NE(refusalOf(good.substr(0, size)), "") << size;
+        EXPECT_FALSE(isRead(good.substr(0, size))) << size;
     }
 }
 
@@ -240,7 +223,7 @@ TEST(VoxFile, ChangedFilesAreReadOrRefused)
         {
             changed[random() % changed.size()] = static_cast<char>(random() % 3 == 0 ? random() : random() % 8);
         }
-        static_cast<void>(refusalOf(changed));
+        isRead(changed);
     }
 }
 
@@ -257,7 +240,7 @@ TEST(VoxFile, TreesComeBackWithTheirVoxelsAndColors)
         {
             continue;
         }
-        const VoxVoxels back = read(writtenVox(sample.tree));
+        const VoxVoxels back = read(writtenBytes(writeVox, sample.tree));
         std::vector<std::uint64_t> codes;
         forEachVoxel(sample.tree, [&codes](std::uint64_t code) { codes.push_back(code); });
         EXPECT_EQ(back.codes, codes) << sample.name;
@@ -285,7 +268,7 @@ TEST(VoxFile, GridsBeyond256AreSplit)
     std::sort(codes.begin(), codes.end());
     codes.erase(std::unique(codes.begin(), codes.end()), codes.end());
     const TreeData tree = octreeOf(codes, 10);
-    const std::string file = writtenVox(tree);
+    const std::string file = writtenBytes(writeVox, tree);
     std::size_t sizes = 0;
     for (std::size_t at = file.find("SIZE"); at != std::string::npos; at = file.find("SIZE", at + 4))
     {
