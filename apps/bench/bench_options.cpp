@@ -1,6 +1,17 @@
 // SPDX-License-Identifier: MIT
 #include "bench/bench_options.h"
 
+#include "bench/bench_balance.h"
+#include "bench/bench_baselines.h"
+#include "bench/bench_build.h"
+#include "bench/bench_denoise.h"
+#include "bench/bench_dynamic.h"
+#include "bench/bench_edit.h"
+#include "bench/bench_kept.h"
+#include "bench/bench_path.h"
+#include "bench/bench_rays.h"
+#include "bench/bench_report.h"
+#include "bench/bench_tune.h"
 #include "common/command_line.h"
 #include "common/option_groups.h"
 #include "common/parse.h"
@@ -133,9 +144,7 @@ void addResolutions(CLI::App& app, BenchOptions& options, std::string_view usual
 // A whole number from 1 on.
 void addCount(CLI::App& app, const char* name, std::uint32_t& count, std::uint32_t most, const std::string& what)
 {
-    const auto read = [most](std::string_view option, std::string_view text)
-    { return static_cast<std::uint32_t>(parseInteger(option, text, 1, most)); };
-    addValue(app, name, count, read, "N", what);
+    addValue(app, name, count, integerIn(1, most), "N", what);
 }
 
 void addRuns(CLI::App& app, RepeatedBenchOptions& options, const char* what = "measured runs of each row")
@@ -163,8 +172,7 @@ void addReference(CLI::App& app, LitBenchOptions& options)
 
 void addStructure(CLI::App& app, TreeStructure& structure, const std::string& what)
 {
-    addValue(app, "--structure", structure, parseStructure, "svo|svdag",
-             fmt::format("{} is an octree or a DAG (default svo)", what));
+    addStructureOption(app, structure, fmt::format("{} is an octree or a DAG (default svo)", what));
 }
 
 // What all commands have that measure.
@@ -302,31 +310,31 @@ void addOptions(CLI::App& app, BenchReportOptions& options)
 
 } // namespace
 
-BenchCommand parseBenchCommandLine(int argc, const char* const* argv)
+void runBenchCommandLine(int argc, const char* const* argv)
 {
     CLI::App app("zvo-bench measures on Vulkan devices how sparse voxel octrees are made and traced.", "zvo-bench");
     describeProgram(app, kMainFooter);
-    const std::vector<CommandEntry<BenchCommand>> commands = {
-        {"build", "measure voxelization, octree construction and compression to a DAG", kBuildFooter,
-         BenchBuildOptions()},
-        {"rays", "measure primary rays through octree and DAG", kRaysFooter, BenchRaysOptions()},
-        {"dynamic", "measure updates of scenes in which something moves, beside full rebuilds", kDynamicFooter,
-         BenchDynamicOptions()},
-        {"edit", "measure strokes of a brush: dabs, undo and redo", kEditFooter, BenchEditOptions()},
-        {"path", "measure path tracing: what rays cost, and variance by the way of finding light", kPathFooter,
-         BenchPathOptions()},
-        {"kept", "measure pictures of light that is kept on voxels, beside one of many paths", kKeptFooter,
-         BenchKeptOptions()},
-        {"denoise", "measure denoised pictures of few paths, beside one of many", kDenoiseFooter,
-         BenchDenoiseOptions()},
-        {"baselines", "measure the algorithms of zvo's sources, and other programs, beside zvo's", kBaselinesFooter,
-         BenchBaselinesOptions()},
-        {"balance", "measure how the time of a voxel depends on the triangles", kBalanceFooter, BenchBalanceOptions()},
-        {"tune", "measure each form and size of kernels that zvo chooses by device", kTuneFooter, BenchTuneOptions()},
-        {"report", "tell what reports have measured, pass by pass", kReportFooter, BenchReportOptions()},
-    };
-    const auto add = [](CLI::App& command, auto& options) { addOptions(command, options); };
-    return parseCommand(app, commands, add, argc, argv);
+    Commands commands(app);
+    commands.add("build", "measure voxelization, octree construction and compression to a DAG", kBuildFooter,
+                 addOptions, benchBuild);
+    commands.add("rays", "measure primary rays through octree and DAG", kRaysFooter, addOptions, benchRays);
+    commands.add("dynamic", "measure updates of scenes in which something moves, beside full rebuilds", kDynamicFooter,
+                 addOptions, benchDynamic);
+    commands.add("edit", "measure strokes of a brush: dabs, undo and redo", kEditFooter, addOptions, benchEdit);
+    commands.add("path", "measure path tracing: what rays cost, and variance by the way of finding light", kPathFooter,
+                 addOptions, benchPath);
+    commands.add("kept", "measure pictures of light that is kept on voxels, beside one of many paths", kKeptFooter,
+                 addOptions, benchKept);
+    commands.add("denoise", "measure denoised pictures of few paths, beside one of many", kDenoiseFooter, addOptions,
+                 benchDenoise);
+    commands.add("baselines", "measure the algorithms of zvo's sources, and other programs, beside zvo's",
+                 kBaselinesFooter, addOptions, benchBaselines);
+    commands.add("balance", "measure how the time of a voxel depends on the triangles", kBalanceFooter, addOptions,
+                 benchBalance);
+    commands.add("tune", "measure each form and size of kernels that zvo chooses by device", kTuneFooter, addOptions,
+                 benchTune);
+    commands.add("report", "tell what reports have measured, pass by pass", kReportFooter, addOptions, benchReport);
+    commands.run(argc, argv);
 }
 
 } // namespace zvo::cli

@@ -12,7 +12,6 @@
 #include <filesystem>
 #include <optional>
 #include <string>
-#include <variant>
 #include <vector>
 
 namespace zvo::cli
@@ -113,12 +112,8 @@ struct BenchReportOptions
     std::optional<std::filesystem::path> targets; // figures to compare them with
 };
 
-/// The command line's request: the options of one command, or a text that is printed (help, version).
-using BenchCommand = std::variant<std::string, BenchBuildOptions, BenchRaysOptions, BenchDynamicOptions,
-                                  BenchEditOptions, BenchPathOptions, BenchKeptOptions, BenchDenoiseOptions,
-                                  BenchBaselinesOptions, BenchBalanceOptions, BenchTuneOptions, BenchReportOptions>;
-
-/// Reads the command line. Throws Error{Usage}, one line, for anything that is not understood.
-BenchCommand parseBenchCommandLine(int argc, const char* const* argv);
+/// Does what the command line asks for. Throws Error{Usage}, one line, for anything that is not understood, and what
+/// the command throws.
+void runBenchCommandLine(int argc, const char* const* argv);
 
 } // namespace zvo::cli

@@ -1,9 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include "common/command_line.h"
 
+#include "common/output.h"
 #include "zvo/version.h"
 
 #include <fmt/format.h>
+
+#include <string>
+#include <utility>
+#include <vector>
 
 namespace zvo::cli
 {
@@ -56,7 +61,7 @@ Error usageError(const CLI::App& app, std::string what)
     return {ErrorCode::Usage, fmt::format("{}; see {}{} --help", what, app.get_name(), command)};
 }
 
-std::optional<std::string> parse(CLI::App& app, int argc, const char* const* argv)
+bool parse(CLI::App& app, int argc, const char* const* argv)
 {
     const std::string commands = commandNames(app);
     try
@@ -65,11 +70,13 @@ std::optional<std::string> parse(CLI::App& app, int argc, const char* const* arg
     }
     catch (const CLI::CallForHelp&)
     {
-        return app.help();
+        Output("-", true).write(app.help());
+        return false;
     }
     catch (const CLI::CallForVersion& version)
     {
-        return std::string(version.what()) + "\n";
+        Output("-", true).write(std::string(version.what()) + "\n");
+        return false;
     }
     catch (const CLI::ExtrasError&)
     {
@@ -87,7 +94,15 @@ std::optional<std::string> parse(CLI::App& app, int argc, const char* const* arg
     {
         throw usageError(app, "a command is missing: " + commands);
     }
-    return std::nullopt;
+    return true;
+}
+
+void Commands::run(int argc, const char* const* argv)
+{
+    if (parse(m_app, argc, argv))
+    {
+        m_runs.at(m_app.get_subcommands().front())();
+    }
 }
 
 } // namespace zvo::cli

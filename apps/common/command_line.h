@@ -6,12 +6,10 @@
 
 #include <CLI/CLI.hpp>
 
-#include <algorithm>
-#include <optional>
+#include <functional>
+#include <map>
+#include <memory>
 #include <string>
-#include <type_traits>
-#include <variant>
-#include <vector>
 
 namespace zvo::cli
 {
@@ -22,45 +20,37 @@ void describeProgram(CLI::App& app, const char* footer);
 /// A usage error that points to the help of the program, or of the command that was chosen.
 Error usageError(const CLI::App& app, std::string what);
 
-/// Reads the arguments. Returns the text that --help or --version asks for, or nothing. Throws Error{Usage}, one line,
-/// for anything that is not understood, and where a command is missing.
-std::optional<std::string> parse(CLI::App& app, int argc, const char* const* argv);
+/// Reads the arguments. Prints the text that --help or --version asks for and returns false, or returns true. Throws
+/// usageError(), one line, for anything that is not understood, and where a command is missing; an Error that a
+/// callback of app throws becomes one.
+bool parse(CLI::App& app, int argc, const char* const* argv);
 
-/// A command of a program. Command: a std::variant of the options of each, and a std::string for texts.
-template <typename Command> struct CommandEntry
+/// The commands of a program.
+class Commands
 {
-    const char* name;
-    const char* about;
-    const char* footer; // the last lines of its help
-    Command options;    // as they are where nothing is given
+public:
+    /// app: the program; must outlive this.
+    explicit Commands(CLI::App& app) : m_app(app) {}
+
+    /// Adds a command. footer: the last lines of its help. declare: adds its options to an app. perform: does what they
+    /// ask for.
+    template <typename Options>
+    void add(const char* name, const char* about, const char* footer, void (*declare)(CLI::App&, Options&),
+             void (*perform)(const Options&))
+    {
+        const auto options = std::make_shared<Options>();
+        CLI::App* const command = m_app.add_subcommand(name, about);
+        command->footer(footer);
+        declare(*command, *options);
+        m_runs[command] = [options, perform] { perform(*options); };
+    }
+
+    /// Does what the command line asks for. Throws as parse() does, and what the command throws.
+    void run(int argc, const char* const* argv);
+
+private:
+    CLI::App& m_app;
+    std::map<const CLI::App*, std::function<void()>> m_runs;
 };
-
-/// Reads the command line of a program that has these commands. add(app, options): adds the options of a command, for
-/// each type that Command has. Returns the options of the command that was chosen, or a text that is printed (help,
-/// version). Throws as parse() does.
-template <typename Command, typename Add>
-Command parseCommand(CLI::App& app, std::vector<CommandEntry<Command>> commands, const Add& add, int argc,
-                     const char* const* argv)
-{
-    for (CommandEntry<Command>& command : commands)
-    {
-        CLI::App* const command_app = app.add_subcommand(command.name, command.about);
-        command_app->footer(command.footer);
-        const auto add_to_app = [&]<typename Options>(Options& options)
-        {
-            if constexpr (!std::is_same_v<Options, std::string>)
-            {
-                add(*command_app, options);
-            }
-        };
-        std::visit(add_to_app, command.options);
-    }
-    if (const std::optional<std::string> text = parse(app, argc, argv))
-    {
-        return *text;
-    }
-    return std::ranges::find(commands, app.get_subcommands().front()->get_name(), &CommandEntry<Command>::name)
-        ->options;
-}
 
 } // namespace zvo::cli

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <vector>
 
 namespace zvo::cli
@@ -40,12 +41,7 @@ CLI::Option* addText(CLI::App& app, const char* name, std::string& target, const
 
 std::string oneOf(std::string_view option, std::string_view text, std::initializer_list<std::string_view> names)
 {
-    return oneOf(option, text, std::span(names));
-}
-
-std::string oneOf(std::string_view option, std::string_view text, std::span<const std::string_view> names)
-{
-    if (std::find(names.begin(), names.end(), text) == names.end())
+    if (std::ranges::find(names, text) == names.end())
     {
         throw Error(ErrorCode::Usage, fmt::format("{} {}: expected one of {}", option, text, fmt::join(names, ", ")));
     }
@@ -54,9 +50,7 @@ std::string oneOf(std::string_view option, std::string_view text, std::span<cons
 
 void addFolder(CLI::App& app, const char* name, std::optional<std::filesystem::path>& folder, const std::string& what)
 {
-    addValue(
-        app, name, folder, [](std::string_view, const std::string& text) { return std::filesystem::path(text); }, "DIR",
-        what);
+    addValue(app, name, folder, parsePath, "DIR", what);
 }
 
 void addDeviceOptions(CLI::App& app, DeviceOptions& options)
@@ -66,11 +60,8 @@ void addDeviceOptions(CLI::App& app, DeviceOptions& options)
     addValue(app, "--memory-limit", options.memory_limit, parseBytes, "BYTES",
              "device memory that may be used, such as 2G or 512M")
         ->group("Device");
-    addValue(
-        app, "--dispatch-ms", options.dispatch_ms,
-        [](std::string_view option, std::string_view text)
-        { return static_cast<std::uint32_t>(parseInteger(option, text, 0, 100000)); },
-        "MS", "split work so that the device is busy about this long at a time, 0: never (default 400)")
+    addValue(app, "--dispatch-ms", options.dispatch_ms, integerIn(0, 100000), "MS",
+             "split work so that the device is busy about this long at a time, 0: never (default 400)")
         ->group("Device");
     addValue(
         app, "--tuning", options.tuning, parseTuning, "NAME=VALUE,...",
@@ -85,32 +76,36 @@ void addDeviceOptions(CLI::App& app, DeviceOptions& options)
 
 void addCoverageOption(CLI::App& app, Coverage& coverage)
 {
-    addValue(app, "--coverage", coverage, parseCoverage, "thin|conservative",
-             "which voxels a triangle covers: a gap-free layer, or all that it touches (default thin)");
+    addNamed(app, "--coverage", coverage, kCoverages,
+             "which voxels a triangle covers: a gap-free layer, or all that it touches (default thin)",
+             "thin or conservative");
 }
 
 void addAttributesOption(CLI::App& app, bool& attributes)
 {
-    addValue(app, "--attributes", attributes, parseAttributes, "full|none", kAttributesHelp);
+    static constexpr auto kNames = std::to_array<Named<bool>>({{"full", true}, {"none", false}});
+    addNamed(app, "--attributes", attributes, kNames, kAttributesHelp, "full or none");
 }
 
 void addAttributesOption(CLI::App& app, AttributeFormat& attributes)
 {
-    const auto parse = [](std::string_view option, std::string_view text)
-    { return parseAttributes(option, text) ? AttributeFormat::Bytes8 : AttributeFormat::None; };
-    addValue(app, "--attributes", attributes, parse, "full|none", kAttributesHelp);
-}
-
-void addStructureOption(CLI::App& app, TreeStructure& structure)
-{
-    addValue(app, "--structure", structure, parseStructure, "svo|svdag",
-             "an octree, or a DAG, which has equal subtrees once (default svdag)");
+    static constexpr auto kNames =
+        std::to_array<Named<AttributeFormat>>({{"full", AttributeFormat::Bytes8}, {"none", AttributeFormat::None}});
+    addNamed(app, "--attributes", attributes, kNames, kAttributesHelp, "full or none");
 }
 
 void addLoadOptions(CLI::App& app, LoadOptions& options)
 {
-    addValue(app, "--up", options.up, parseUpAxis, "AXIS",
-             "which axis points up in the files: x, y, z, -x, -y or -z; it becomes y (default y)");
+    static constexpr auto kAxes = std::to_array<Named<UpAxis>>({{"x", UpAxis::X},
+                                                                {"y", UpAxis::Y},
+                                                                {"z", UpAxis::Z},
+                                                                {"-x", UpAxis::MinusX},
+                                                                {"-y", UpAxis::MinusY},
+                                                                {"-z", UpAxis::MinusZ}});
+    addNamed(app, "--up", options.up, kAxes,
+             "which axis points up in the files: x, y, z, -x, -y or -z; it becomes y (default y)",
+             "x, y, z, -x, -y or -z")
+        ->type_name("AXIS");
     addValue(app, "--scale", options.scale, parsePositive, "FACTOR",
              "multiplies the files' coordinates, after --up (default 1)");
     addMaterialOptions(app, options);
@@ -149,6 +144,14 @@ void addVoxelOptions(CLI::App& app, VoxelOptions& options, const std::string& al
              "the grid is the cube from corner 0 on, as long as the box's longest edge");
     addValue(app, "--grid", options.grid_position, parseGridPosition, "x,y,z,SIZE",
              "the grid has exactly this origin and voxel size, as a JSON report states them");
+    app.final_callback(
+        [&options]
+        {
+            if (options.bounds && options.grid_position)
+            {
+                throw Error(ErrorCode::Usage, "--bounds and --grid exclude each other");
+            }
+        });
 }
 
 void addOutputOptions(CLI::App& app, OutputOptions& options, const char* what)

@@ -2,13 +2,16 @@
 // Options that several commands have, for the options.cpp of each program.
 #pragma once
 
+#include "common/names.h"
 #include "common/scene_options.h"
-#include "core/tree/tree_data.h"
+#include "core/tree/attribute_format.h"
 
 #include <CLI/CLI.hpp>
 
+#include <cstddef>
+#include <filesystem>
 #include <initializer_list>
-#include <span>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -24,19 +27,35 @@ CLI::Option* addValue(CLI::App& app, const char* name, T& target, Read read, con
     return app.add_option_function<std::string>(name, assign, what)->type_name(type);
 }
 
+/// Adds an option whose value has a name. expected: as in parseNamed().
+template <typename T, std::size_t count, typename Target>
+CLI::Option* addNamed(CLI::App& app, const char* name, Target& target, const Names<T, count>& names,
+                      const std::string& what, std::string_view expected = {})
+{
+    const auto read = [&names, expected](std::string_view option, std::string_view text)
+    { return parseNamed(option, text, names, expected); };
+    return addValue(app, name, target, read, "", what)->type_name(listOf(names, "|"));
+}
+
 CLI::Option* addText(CLI::App& app, const char* name, std::string& target, const char* type, const char* what);
 
 void addFolder(CLI::App& app, const char* name, std::optional<std::filesystem::path>& folder, const std::string& what);
 
 /// Returns text, which must be one of names. Throws Error{Usage}.
-std::string oneOf(std::string_view option, std::string_view text, std::span<const std::string_view> names);
 std::string oneOf(std::string_view option, std::string_view text, std::initializer_list<std::string_view> names);
 
 void addDeviceOptions(CLI::App& app, DeviceOptions& options);
 void addCoverageOption(CLI::App& app, Coverage& coverage);
 void addAttributesOption(CLI::App& app, bool& attributes);
 void addAttributesOption(CLI::App& app, AttributeFormat& attributes); // Bytes8 or None
-void addStructureOption(CLI::App& app, TreeStructure& structure);
+
+/// structure: a TreeStructure, or an optional one.
+template <typename Structure>
+CLI::Option* addStructureOption(CLI::App& app, Structure& structure, const std::string& what)
+{
+    return addNamed(app, "--structure", structure, kStructures, what, "svo or svdag");
+}
+
 void addLoadOptions(CLI::App& app, LoadOptions& options);
 void addMaterialOptions(CLI::App& app,
                         LoadOptions& options); // those of addLoadOptions() that hold for scene files, too

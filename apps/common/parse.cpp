@@ -7,7 +7,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <charconv>
 #include <cmath>
@@ -31,6 +30,18 @@ template <typename T> std::optional<T> number(std::string_view text)
     const char* const end = text.data() + text.size();
     const auto [stop, failure] = std::from_chars(text.data(), end, value);
     return failure == std::errc{} && stop == end ? std::optional(value) : std::nullopt;
+}
+
+// A finite number that is allowed.
+template <typename T, typename Allowed>
+T parseNumber(std::string_view option, std::string_view text, const Allowed& isAllowed, std::string_view expected)
+{
+    const auto value = number<T>(text);
+    if (!value || !std::isfinite(*value) || !isAllowed(*value))
+    {
+        throw valueError(option, text, expected);
+    }
+    return *value;
 }
 
 std::vector<std::string_view> split(std::string_view text, char separator)
@@ -62,32 +73,20 @@ std::uint64_t parseInteger(std::string_view option, std::string_view text, std::
 
 float parsePositive(std::string_view option, std::string_view text)
 {
-    const auto value = number<float>(text);
-    if (!value || !std::isfinite(*value) || *value <= 0.0F)
-    {
-        throw valueError(option, text, "a finite number above 0");
-    }
-    return *value;
+    return parseNumber<float>(
+        option, text, [](float value) { return value > 0.0F; }, "a finite number above 0");
 }
 
 double parseSeconds(std::string_view option, std::string_view text)
 {
-    const auto value = number<double>(text);
-    if (!value || !std::isfinite(*value) || *value < 0.0)
-    {
-        throw valueError(option, text, "a number of seconds from 0 on");
-    }
-    return *value;
+    return parseNumber<double>(
+        option, text, [](double value) { return value >= 0; }, "a number of seconds from 0 on");
 }
 
 double parseDegrees(std::string_view option, std::string_view text)
 {
-    const auto value = number<double>(text);
-    if (!value || !std::isfinite(*value))
-    {
-        throw valueError(option, text, "a number of degrees");
-    }
-    return *value;
+    return parseNumber<double>(
+        option, text, [](double) { return true; }, "a number of degrees");
 }
 
 std::optional<std::vector<float>> tryParseFloats(std::string_view text)
@@ -215,63 +214,6 @@ glm::dvec3 parseDirection(std::string_view option, std::string_view text)
         }
     }
     throw valueError(option, text, "three finite numbers x,y,z, not all 0");
-}
-
-Coverage parseCoverage(std::string_view option, std::string_view text)
-{
-    if (text != "thin" && text != "conservative")
-    {
-        throw valueError(option, text, "thin or conservative");
-    }
-    return text == "thin" ? Coverage::Thin : Coverage::Conservative;
-}
-
-UpAxis parseUpAxis(std::string_view option, std::string_view text)
-{
-    constexpr std::array<std::pair<std::string_view, UpAxis>, 6> kAxes = {{{"x", UpAxis::X},
-                                                                           {"y", UpAxis::Y},
-                                                                           {"z", UpAxis::Z},
-                                                                           {"-x", UpAxis::MinusX},
-                                                                           {"-y", UpAxis::MinusY},
-                                                                           {"-z", UpAxis::MinusZ}}};
-    const auto axis =
-        std::find_if(kAxes.begin(), kAxes.end(), [text](const auto& entry) { return entry.first == text; });
-    if (axis == kAxes.end())
-    {
-        throw valueError(option, text, "x, y, z, -x, -y or -z");
-    }
-    return axis->second;
-}
-
-bool parseAttributes(std::string_view option, std::string_view text)
-{
-    if (text != "full" && text != "none")
-    {
-        throw valueError(option, text, "full or none");
-    }
-    return text == "full";
-}
-
-AttributeFormat parseAttributeFormat(std::string_view option, std::string_view text)
-{
-    for (const AttributeFormat format :
-         {AttributeFormat::None, AttributeFormat::Bytes4, AttributeFormat::Bytes8, AttributeFormat::Blocks})
-    {
-        if (text == formatName(format))
-        {
-            return format;
-        }
-    }
-    throw valueError(option, text, "none, 4, 8 or block");
-}
-
-TreeStructure parseStructure(std::string_view option, std::string_view text)
-{
-    if (text != "svo" && text != "svdag")
-    {
-        throw valueError(option, text, "svo or svdag");
-    }
-    return text == "svo" ? TreeStructure::Svo : TreeStructure::Svdag;
 }
 
 } // namespace zvo::cli

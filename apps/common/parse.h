@@ -4,11 +4,9 @@
 #pragma once
 
 #include "core/scene/scene.h"
-#include "core/tree/tree_data.h"
-#include "io/scene/load_scene.h"
-#include "zvo/types.h"
 
 #include <cstdint>
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -20,6 +18,19 @@ namespace zvo::cli
 
 /// A whole number in [low, high].
 std::uint64_t parseInteger(std::string_view option, std::string_view text, std::uint64_t low, std::uint64_t high);
+
+/// A function that parses whole numbers in [low, high].
+inline auto integerIn(std::uint32_t low, std::uint32_t high)
+{
+    return [low, high](std::string_view option, std::string_view text)
+    { return static_cast<std::uint32_t>(parseInteger(option, text, low, high)); };
+}
+
+/// Any text, as a path.
+inline std::filesystem::path parsePath(std::string_view, const std::string& text)
+{
+    return text;
+}
 
 /// A finite number above 0.
 float parsePositive(std::string_view option, std::string_view text);
@@ -56,19 +67,5 @@ std::uint64_t parseBytes(std::string_view option, std::string_view text);
 
 /// Six numbers, minimum corner then maximum corner; some extent on at least one axis.
 Bounds parseBounds(std::string_view option, std::string_view text);
-
-Coverage parseCoverage(std::string_view option, std::string_view text);
-
-/// An axis with its sign: "z", "-x".
-UpAxis parseUpAxis(std::string_view option, std::string_view text);
-
-/// "full": true, "none": false.
-bool parseAttributes(std::string_view option, std::string_view text);
-
-/// "none", "4", "8" or "block".
-AttributeFormat parseAttributeFormat(std::string_view option, std::string_view text);
-
-/// "svo" or "svdag".
-TreeStructure parseStructure(std::string_view option, std::string_view text);
 
 } // namespace zvo::cli

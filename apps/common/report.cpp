@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "common/report.h"
+
+#include "common/names.h"
 #include "zvo/version.h"
 
 #include <algorithm>
@@ -45,13 +47,8 @@ Json octreeJson(const std::string& schema, const vk::DeviceReport& device, const
 {
     const DeviceTree& octree = result.octree;
     const Grid& grid = octree.grid;
-    Json dropped = Json::object();
-    for (const auto& [reason, count] : result.dropped)
-    {
-        dropped[reason] = count;
-    }
     Json json = headJson(schema, device, options, grid);
-    json["scene"] = {{"triangles", triangle_count}, {"dropped", dropped}};
+    json["scene"] = {{"triangles", triangle_count}, {"dropped", result.dropped}};
     json["voxels"] = octree.voxel_count;
     json["bricks"] = octree.levels.empty() ? 0U : octree.levels.back().node_count;
     json["nodes"] = octree.node_count;
@@ -114,14 +111,9 @@ void writeReport(Output& report, const Json& json)
     report.finish();
 }
 
-const char* coverageName(Coverage coverage)
+std::string_view coverageName(Coverage coverage)
 {
-    return coverage == Coverage::Thin ? "thin" : "conservative";
-}
-
-const char* mergeRuleName(MergeRule rule)
-{
-    return rule == MergeRule::DynamicWins ? "dynamic" : rule == MergeRule::StaticWins ? "static" : "average";
+    return nameOf(kCoverages, coverage);
 }
 
 } // namespace zvo::cli

@@ -4,7 +4,6 @@
 
 #include "common/output.h"
 #include "common/scene_options.h"
-#include "zvo/types.h"
 #include "runtime/trees.h"
 #include "vk/device.h"
 
@@ -12,6 +11,7 @@
 
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace zvo::cli
@@ -52,9 +52,7 @@ std::string jsonText(const Json& json);
 /// Writes a report and completes it. Throws as Output.
 void writeReport(Output& report, const Json& json);
 
-const char* coverageName(Coverage coverage);
-
-/// As scene files have it.
-const char* mergeRuleName(MergeRule rule);
+/// As --coverage has it.
+std::string_view coverageName(Coverage coverage);
 
 } // namespace zvo::cli

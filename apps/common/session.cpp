@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "common/session.h"
 
-#include "common/environment.h"
+#include "common/names.h"
 #include "common/progress.h"
 #include "common/report.h"
 #include "core/base/kernels.h"
@@ -30,18 +30,6 @@ struct KeptDevice
     std::shared_ptr<vk::HeadlessDevice> device;
 };
 std::optional<std::vector<KeptDevice>> g_kept_devices;
-
-// Returns an empty path if there is no folder for it.
-std::filesystem::path cacheFolder()
-{
-    std::filesystem::path base = environmentPath("XDG_CACHE_HOME");
-    if (base.empty())
-    {
-        base = environmentPath("HOME");
-        base = base.empty() ? base : base / ".cache";
-    }
-    return base.empty() ? base : base / "zvo";
-}
 
 void tellWarnings(const std::vector<std::string>& warnings)
 {
@@ -88,6 +76,19 @@ void checkSceneFileOptions(const VoxelOptions& options)
 
 } // namespace
 
+std::filesystem::path userFolder(const char* variable, const char* in_home)
+{
+    const auto absolutePath = [](const char* name)
+    {
+        const char* const value = std::getenv(name);
+        const std::filesystem::path path = value != nullptr ? value : "";
+        return path.is_absolute() ? path : std::filesystem::path();
+    };
+    const std::filesystem::path named = absolutePath(variable);
+    const std::filesystem::path home = absolutePath("HOME");
+    return !named.empty() ? named / "zvo" : home.empty() ? home : home / in_home / "zvo";
+}
+
 vk::HeadlessOptions headlessOptions(const DeviceOptions& options)
 {
     vk::HeadlessOptions headless;
@@ -99,7 +100,7 @@ vk::HeadlessOptions headlessOptions(const DeviceOptions& options)
     headless.slices.submission_ms = options.dispatch_ms;
     headless.tuning = options.tuning;
     headless.log = vk::logToFile(std::getenv("ZVO_LOG"));
-    const std::filesystem::path folder = cacheFolder();
+    const std::filesystem::path folder = userFolder("XDG_CACHE_HOME", ".cache");
     headless.pipeline_cache_path = folder.empty() ? "" : (folder / "pipelines.bin").string();
     return headless;
 }
@@ -237,7 +238,7 @@ void warnOfMergeRule(const AnimatedScene& animated)
     {
         talk(fmt::format("warning: everything is voxelized together, which averages where objects overlap; the scene "
                          "file's merge, {}, has no effect",
-                         mergeRuleName(animated.merge)));
+                         nameOf(kMergeRules, animated.merge)));
     }
 }
 

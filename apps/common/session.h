@@ -21,6 +21,10 @@
 namespace zvo::cli
 {
 
+/// zvo's folder in the user's folder that an environment variable names or, if it names no absolute path, in that one
+/// of the home folder; empty where there is none.
+std::filesystem::path userFolder(const char* variable, const char* in_home);
+
 /// The options with which a command makes its device. Pipelines are kept below $XDG_CACHE_HOME/zvo, or ~/.cache/zvo;
 /// messages go to the file that $ZVO_LOG names, if any.
 vk::HeadlessOptions headlessOptions(const DeviceOptions& options);

@@ -40,7 +40,7 @@ TreeData loadVox(const std::filesystem::path& path, vk::HeadlessDevice& device)
     }
     addColors(tree, voxels.colors);
     voxels = {};
-    const GpuScene tables = uploadScene(device, Scene(), true);
+    const GpuScene tables = uploadColorTables(device);
     DeviceTree octree = uploadTree(device, tree);
     octree.node_attributes = {device.device(), "octree/node_attributes", octree.node_count};
     device.run([&](vk::FrameGraph& graph) { averageNodes(graph, tables, octree); });

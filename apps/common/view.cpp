@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "common/view.h"
 
+#include "common/names.h"
 #include "common/parse.h"
 #include "core/scene/main_bounds.h"
 #include "zvo/error.h"
@@ -8,7 +9,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <vector>
 
 namespace zvo::cli
@@ -20,12 +20,6 @@ namespace
 constexpr float kDefaultFov = 45.0F; // degrees
 // Of the framing camera's distance: about two thirds of the rays hit a single object.
 constexpr double kCloseDistance = 0.42;
-
-constexpr std::array kViews = {
-    NamedView{"color", View::Color}, NamedView{"albedo", View::Albedo}, NamedView{"normal", View::Normal},
-    NamedView{"depth", View::Depth}, NamedView{"level", View::Level},   NamedView{"iterations", View::Iterations},
-    NamedView{"voxel", View::Voxel}, NamedView{"bricks", View::Bricks}, NamedView{"origin", View::Origin},
-};
 
 Error noSuchCamera(const std::string& wanted, const Scene& scene)
 {
@@ -54,22 +48,13 @@ ViewCamera cameraOfNumbers(const std::vector<float>& v)
     return ViewCamera::lookAt({v[0], v[1], v[2]}, {v[3], v[4], v[5]}, glm::radians(double{fov}));
 }
 
-std::span<const NamedView> allViews()
-{
-    return kViews;
-}
-
 std::string viewHelp()
 {
     std::string names;
-    for (const NamedView& named : kViews)
+    for (const Named<View>& named : kViews)
     {
-        const bool is_last = &named == &kViews.back();
-        names += fmt::format("{}{}{}",
-                             is_last         ? " or "
-                             : names.empty() ? ""
-                                             : ", ",
-                             named.name, named.view == View::Level ? " (of --detail)" : "");
+        const char* const before = &named == &kViews.back() ? " or " : names.empty() ? "" : ", ";
+        names += fmt::format("{}{}{}", before, named.name, named.value == View::Level ? " (of --detail)" : "");
     }
     return names + " (default color)";
 }
@@ -123,19 +108,4 @@ ViewCamera chooseCamera(const std::string& wanted, const AnimatedScene& animated
     return view != nullptr ? *view
                            : chooseCamera(std::get<std::string>(*animated.camera), animated.fixed, subject, aspect);
 }
-
-View viewOf(std::string_view option, std::string_view name)
-{
-    std::vector<std::string_view> names;
-    for (const NamedView& named : kViews)
-    {
-        if (named.name == name)
-        {
-            return named.view;
-        }
-        names.push_back(named.name);
-    }
-    throw Error(ErrorCode::Usage, fmt::format("{} {}: expected one of {}", option, name, fmt::join(names, ", ")));
-}
-
 } // namespace zvo::cli

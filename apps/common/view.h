@@ -5,9 +5,7 @@
 #include "core/trace/trace.h"
 #include "io/scene/animated_scene.h"
 
-#include <span>
 #include <string>
-#include <string_view>
 #include <vector>
 
 namespace zvo::cli
@@ -31,17 +29,6 @@ ViewCamera chooseCamera(const std::string& wanted, const AnimatedScene& animated
 /// A camera from eye, target and, if given, vertical field of view in degrees. Throws Error{Usage} for anything but six
 /// or seven numbers, and for numbers that make no camera.
 ViewCamera cameraOfNumbers(const std::vector<float>& numbers);
-
-/// The view of that name. Throws Error{Usage}, listing the names.
-View viewOf(std::string_view option, std::string_view name);
-
-/// All views with the names that viewOf() takes.
-struct NamedView
-{
-    std::string_view name;
-    View view;
-};
-std::span<const NamedView> allViews();
 
 /// The text of --help about --view.
 std::string viewHelp();

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 // zvo-demo: the window.
-#include "common/output.h"
 #include "common/progress.h"
 #include "common/run_program.h"
 #include "common/signals.h"
@@ -8,8 +7,6 @@
 #include "demo/app/options.h"
 
 #include <chrono>
-#include <string>
-#include <variant>
 
 int main(int argc, char** argv)
 {
@@ -19,12 +16,9 @@ int main(int argc, char** argv)
     return zvo::cli::runProgram(
         [&]
         {
-            const auto command = zvo::demo::parseCommandLine(argc, argv);
-            if (const auto* const text = std::get_if<std::string>(&command))
+            if (const auto options = zvo::demo::parseCommandLine(argc, argv))
             {
-                zvo::cli::Output("-", true).write(*text);
-                return;
+                zvo::demo::App(*options, start).run();
             }
-            zvo::demo::App(std::get<zvo::demo::DemoOptions>(command), start).run();
         });
 }

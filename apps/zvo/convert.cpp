@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "convert.h"
+#include "commands.h"
 
 #include "common/output.h"
 #include "common/progress.h"

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "commands.h"
 #include "core/light/environment.h"
-#include "options.h"
 #include "vk/device.h"
 
 namespace zvo::cli

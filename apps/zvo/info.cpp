@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "info.h"
+#include "commands.h"
 
 #include "common/output.h"
 #include "common/report.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "inspect.h"
+#include "commands.h"
 
 #include "common/output.h"
 #include "common/report.h"

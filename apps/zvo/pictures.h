@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "commands.h"
 #include "common/output.h"
-#include "options.h"
 
 #include <cstddef>
 #include <cstdint>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "render.h"
+#include "commands.h"
 
 #include "common/output.h"
 #include "common/progress.h"
@@ -15,17 +15,13 @@
 #include "render_report.h"
 #include "renderer.h"
 #include "runtime/live_scene.h"
-#include "zvo/error.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <initializer_list>
 #include <numbers>
 #include <optional>
 #include <string>
-#include <string_view>
-#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -234,103 +230,6 @@ private:
 bool hasZvoFile(const VoxelOptions& options)
 {
     return std::any_of(options.scenes.begin(), options.scenes.end(), isZvoFile);
-}
-
-// Refuses options that have no effect with a tree.
-void checkTreeOptions(const RenderOptions& options)
-{
-    const VoxelOptions& voxels = options.voxels;
-    const VoxelOptions plain;
-    if (voxels.scenes.size() > 1)
-    {
-        throw Error(ErrorCode::Usage, "a .zvo file stands alone; build one of all that is to be seen");
-    }
-    const std::pair<const char*, bool> given[] = {
-        {"--up", voxels.load.up != plain.load.up},
-        {"--scale", voxels.load.scale != plain.load.scale},
-        {"--skip-material", !voxels.load.skip_materials.empty()},
-        {"--keep-hulls", voxels.load.keep_hulls},
-        {"--strict", voxels.load.strict},
-        {"--scenes", voxels.scenes_folder.has_value()},
-        {"--time", voxels.time.has_value() && !options.camera_path},
-        {"--resolution", voxels.depth.has_value()},
-        {"--coverage", voxels.coverage != plain.coverage},
-        {"--attributes", voxels.attributes != plain.attributes},
-        {"--bounds", voxels.bounds.has_value()},
-        {"--grid", voxels.grid_position.has_value()},
-        {"--structure", options.structure.has_value()},
-        {"--rebuild", options.rebuild},
-    };
-    for (const auto& [name, is_given] : given)
-    {
-        if (is_given)
-        {
-            throw Error(ErrorCode::Usage, fmt::format("{} does not go with {}, whose voxels are made already", name,
-                                                      voxels.scenes.front().string()));
-        }
-    }
-}
-
-// Refuses options that have no effect with the integrator.
-void checkIntegratorOptions(const RenderOptions& options)
-{
-    using Integrators = std::initializer_list<Integrator>;
-    const Integrators of_paths = {Integrator::Path};
-    const Integrators of_kept = {Integrator::Cached, Integrator::Cones};
-    const Integrators of_samples = {Integrator::Path, Integrator::Cached, Integrator::Cones};
-    const Integrators of_primary = {Integrator::Primary};
-    const RenderOptions plain;
-    const FrameOptions& frame = options.frame;
-    const EnvironmentOptions& environment = options.environment;
-    const std::tuple<const char*, bool, Integrators> given[] = {
-        {"--spp", options.samples.has_value(), of_samples},
-        {"--bounces", frame.path.bounces != plain.frame.path.bounces, of_paths},
-        {"--seed", frame.path.seed != plain.frame.path.seed, of_samples},
-        {"--settle", options.settle != plain.settle, of_kept},
-        {"--rays", frame.radiance != plain.frame.radiance, of_kept},
-        {"--aperture", frame.path.lens_radius != plain.frame.path.lens_radius, of_paths},
-        {"--focus", frame.path.focus_distance != plain.frame.path.focus_distance, of_paths},
-        {"--environment", environment.map.has_value(), of_samples},
-        {"--environment-turn", environment.turn != plain.environment.turn, of_samples},
-        {"--environment-strength", environment.strength != plain.environment.strength, of_samples},
-        {"--denoise", frame.denoise, of_paths},
-        {"--aov", options.aovs, of_paths},
-        {"--path-form", frame.path_form.has_value(), of_paths},
-        {"--time-limit", options.time_limit.has_value(), of_samples},
-        {"--view", frame.trace.view != plain.frame.trace.view, of_primary},
-        {"--occlusion", frame.trace.occlusion_rays != plain.frame.trace.occlusion_rays, of_primary},
-        {"--detail", frame.trace.detail_pixels != plain.frame.trace.detail_pixels, of_primary},
-    };
-    for (const auto& [name, is_given, integrators] : given)
-    {
-        if (is_given && std::find(integrators.begin(), integrators.end(), frame.integrator) == integrators.end())
-        {
-            const std::string_view first = nameOf(*integrators.begin());
-            throw Error(ErrorCode::Usage,
-                        integrators.size() == 1 && first == "primary"
-                            ? fmt::format("{} does not go with --integrator {}", name, nameOf(frame.integrator))
-                            : fmt::format("{} needs --integrator {}", name, first));
-        }
-    }
-    const bool has_map = environment.map && *environment.map != "none";
-    if (environment.turn != plain.environment.turn && !has_map)
-    {
-        throw Error(ErrorCode::Usage, "--environment-turn needs a map: --environment FILE");
-    }
-    if (environment.strength != plain.environment.strength && !has_map)
-    {
-        throw Error(ErrorCode::Usage, "--environment-strength needs a map: --environment FILE");
-    }
-    if (frame.path.focus_distance != plain.frame.path.focus_distance &&
-        frame.path.lens_radius == plain.frame.path.lens_radius)
-    {
-        throw Error(ErrorCode::Usage, "--focus needs --aperture: all is sharp without a lens");
-    }
-    if (options.aovs && extensionOf(options.output.path) != ".exr")
-    {
-        throw Error(ErrorCode::Usage,
-                    fmt::format("--aov needs an output that ends in .exr, not {}", options.output.path));
-    }
 }
 
 void renderTree(const RenderOptions& options, const CameraWork& camera_work, Pictures& pictures,

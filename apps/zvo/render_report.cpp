@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "render_report.h"
 
+#include "common/names.h"
 #include "common/progress.h"
 #include "common/session.h"
 #include "core/file/zvo_file.h"
@@ -69,7 +70,7 @@ void RenderReport::addAnimatedScene(const LiveScene& scene, const LiveUpdate& up
                           part.voxel_count, update.report.dynamic_count, grid.resolution(), triangle_count, voxelize_ms,
                           build_ms, sumMs(update.passes));
     m_json = headJson("zvo.render_dynamic/1", m_device.device().report(), m_options.voxels, grid);
-    m_json["merge"] = mergeRuleName(scene.animated().merge);
+    m_json["merge"] = nameOf(kMergeRules, scene.animated().merge);
     m_json["scene"] = {{"triangles_static", part.triangle_count},
                        {"triangles_dynamic", scene.info().moving_triangle_count},
                        {"movers", scene.animated().objects.size()},
@@ -185,7 +186,7 @@ Json RenderReport::pathsJson() const
     const PathForm form = frame.path_form.value_or(pathFormOn(m_device.device()));
     Json json = samplesJson();
     json["bounces"] = frame.path.bounces;
-    json["form"] = form == PathForm::Stages ? "stages" : "kernel";
+    json["form"] = nameOf(kPathForms, form);
     json["aperture"] = frame.path.lens_radius;
     json["focus"] = frame.path.focus_distance;
     json["denoise"] = frame.denoise;

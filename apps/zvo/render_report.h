@@ -2,10 +2,10 @@
 // The report of `zvo render` about its pictures.
 #pragma once
 
+#include "commands.h"
 #include "common/report.h"
 #include "core/tree/tree_data.h"
 #include "io/scene/animated_scene.h"
-#include "options.h"
 #include "renderer.h"
 #include "runtime/live_scene.h"
 #include "runtime/trees.h"

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "commands.h"
 #include "common/progress.h"
 #include "common/signals.h"
 #include "core/frame/frame_renderer.h"
-#include "options.h"
 #include "vk/headless.h"
 
 #include <chrono>

@@ -1,18 +1,24 @@
 // SPDX-License-Identifier: MIT
 #include "run_command_line.h"
 
-#include "build.h"
+#include "commands.h"
+#include "common/command_line.h"
+#include "common/option_groups.h"
 #include "common/output.h"
+#include "common/parse.h"
 #include "common/run_program.h"
-#include "convert.h"
-#include "info.h"
-#include "inspect.h"
-#include "options.h"
-#include "render.h"
-#include "voxelize.h"
+#include "common/view.h"
+#include "zvo/error.h"
 
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <initializer_list>
 #include <string>
-#include <variant>
+#include <string_view>
+#include <tuple>
+#include <utility>
 
 namespace zvo::cli
 {
@@ -20,23 +26,344 @@ namespace zvo::cli
 namespace
 {
 
-struct Run
+constexpr const char* kMainFooter = R"(
+Examples:
+  zvo render scenes/atrium.glb -o atrium.png
+  zvo voxelize bunny.glb --resolution 256 -o bunny.ply
+  zvo build bunny.glb --resolution 2048 -o bunny.zvo
+  zvo info
+
+'zvo COMMAND --help' tells the options of a command.
+Exit codes: 0 success, 2 usage, 3 input, 4 output, 5 no usable device, 6 memory, 1 anything else.)";
+
+constexpr const char* kRenderFooter = R"(
+Examples:
+  zvo render scenes/atrium.glb -o atrium.png --json atrium.json
+  zvo render bunny.glb -o bunny.png --resolution 1024 --view normal
+  zvo render room.glb lamp.glb -o room.png --camera 4,2,5,0,1,0,60 --occlusion 16
+  zvo render helmet.glb -o 'turn_###.png' --frames 0..35 -f
+  zvo render scenes/atrium_knot.scene.json -o 'frame_####.png' --frames 0..119 --structure svdag
+  zvo render scenes/atrium.glb -o 'fly_####.png' --camera-path flight.json --frames 0..89
+  zvo render scenes/cornell_box.glb -o box.png --integrator path --spp 256
+  zvo render bunny.zvo -o bunny.png
+  zvo render scenes/sponza_bunny.scene.json -o later.png --scenes ../models --time 1.5)";
+
+constexpr const char* kVoxelizeFooter = R"(
+A .morton file holds the sorted Morton codes of the voxels (x in bit 0, y in bit 1, z in bit 2), 64-bit
+little-endian integers, and nothing else. A .ply file holds the voxels' centres in world space as points
+with normals and sRGB colours.
+
+Examples:
+  zvo voxelize bunny.glb -o bunny.morton --resolution 256 --json -
+  zvo voxelize part.stl -o part.ply --up z --scale 0.001
+  zvo voxelize part.glb -o part.ply --bounds=-1,-1,-1,1,1,1
+  zvo voxelize part.glb -o - --format morton --attributes none | sha256sum)";
+
+constexpr const char* kBuildFooter = R"(
+A .zvo file holds the tree with its attributes: docs/file-format.md. zvo render shows it, zvo inspect tells what is
+in it, zvo convert makes other files of it.
+
+Examples:
+  zvo build bunny.glb -o bunny.zvo --resolution 2048
+  zvo build town.glb -o town.zvo --resolution 8192 --attributes none --memory-limit 2G)";
+
+constexpr const char* kInspectFooter = R"(
+Everything in the file is checked first. Beside the bytes of this file stand those that other trees of the same voxels
+take, with nodes of 2x2x2 cells: an octree with 36 bytes a node, and a DAG with 68 bytes a node.
+
+Examples:
+  zvo inspect bunny.zvo
+  zvo inspect bunny.zvo --json | jq .geometry_bytes_per_voxel)";
+
+constexpr const char* kValidateFooter =
+    "\nThe exit code is 0 for a sound file, and 3, with the first fault, for any other.";
+
+constexpr const char* kConvertFooter = R"(
+.zvo files hold trees with attributes (docs/file-format.md); .vox files are those of MagicaVoxel, with 255 colours;
+.ply files hold voxel centres as points; .morton files sorted Morton codes; .glb files a mesh of the voxels' faces with
+vertex colours.
+
+Examples:
+  zvo convert bunny.zvo -o bunny.glb
+  zvo convert castle.vox -o castle.zvo
+  zvo convert bunny.zvo -o - --format morton | sha256sum)";
+
+constexpr const char* kInfoFooter = R"(
+Examples:
+  zvo info
+  zvo info --json | jq '.devices[].missing')";
+
+constexpr const char* kStructureHelp = "an octree, or a DAG, which has equal subtrees once (default svdag)";
+
+// The options of pictures by path tracing.
+void addPathOptions(CLI::App& render, RenderOptions& options)
 {
-    void operator()(const std::string& text) const { Output("-", true).write(text); }
-    void operator()(const RenderOptions& options) const { render(options); }
-    void operator()(const VoxelizeOptions& options) const { voxelize(options); }
-    void operator()(const BuildFileOptions& options) const { buildFile(options); }
-    void operator()(const InspectOptions& options) const { inspect(options); }
-    void operator()(const ValidateOptions& options) const { validate(options); }
-    void operator()(const ConvertOptions& options) const { convert(options); }
-    void operator()(const InfoOptions& options) const { info(options); }
-};
+    addNamed(render, "--integrator", options.frame.integrator, kIntegrators, kIntegratorHelp);
+    PathOptions& path = options.frame.path;
+    addValue(render, "--spp", options.samples, integerIn(1, 1U << 24), "N",
+             fmt::format("paths a pixel, or frames of --integrator cached, 1 to {} (default 64, or 16)", 1U << 24));
+    addValue(render, "--bounces", path.bounces, integerIn(0, kBouncesMax), "N",
+             fmt::format("diffuse reflections of a path, 0 to {} (default 8)", kBouncesMax));
+    addValue(render, "--seed", path.seed, integerIn(0, UINT32_MAX), "N",
+             fmt::format("of the paths' random numbers, 0 to {} (default 0)", UINT32_MAX));
+    addValue(render, "--settle", options.settle, integerIn(0, 1U << 24), "N",
+             fmt::format("frames of --integrator cached before the first picture, 0 to {} (default 64)", 1U << 24));
+    addValue(render, "--rays", options.frame.radiance.faces, integerIn(1, kRadianceFacesMax), "N",
+             fmt::format("faces that a frame of --integrator cached samples at most, 1 to {} (default 16384): each "
+                         "takes up to two rays and two shadow rays",
+                         kRadianceFacesMax));
+    addValue(render, "--aperture", path.lens_radius, parsePositive, "RADIUS",
+             "radius of the lens of the camera, in world units (default: a pinhole)");
+    addValue(render, "--focus", path.focus_distance, parsePositive, "DISTANCE",
+             "distance of the plane that is in focus, in world units (default 1)");
+    addValue(
+        render, "--environment", options.environment.map, parsePath, "FILE",
+        "a map of the light from all directions, .hdr or .exr, in place of sun and sky, or none for no light; --sun "
+        "adds "
+        "the sun");
+    addValue(render, "--environment-turn", options.environment.turn, parseDegrees, "DEGREES",
+             "turns the map about the vertical, counterclockwise from above (default 0)");
+    addValue(render, "--environment-strength", options.environment.strength, parsePositive, "FACTOR",
+             "factor for the map's light (default 1)");
+    render.add_flag("--denoise", options.frame.denoise,
+                    "smooth the noise of few paths, but not edges; in sequences with the help of earlier pictures");
+    render.add_flag("--aov", options.aovs,
+                    "write albedo, normal, depth and motion as channels of the picture, which must be an .exr");
+    addNamed(render, "--path-form", options.frame.path_form, kPathForms,
+             "paths advance together, or one kernel follows each to its end; the picture is the same (default: as is "
+             "faster on the device)");
+    addValue(render, "--time-limit", options.time_limit, parseSeconds, "SECONDS",
+             "begin no more paths after this time; the picture shows those that were traced");
+}
+
+void addOptions(CLI::App& render, RenderOptions& options)
+{
+    addVoxelOptions(render, options.voxels, "; or one .zvo file, which needs no voxelizing");
+    addAttributesOption(render, options.voxels.attributes);
+    render
+        .add_option_function<std::string>(
+            "--size",
+            [&options](const std::string& text)
+            { std::tie(options.width, options.height) = parseSize("--size", text); },
+            "pixels of the picture (default 1280x720)")
+        ->type_name("WxH");
+    addCameraOption(render, options.camera);
+    addValue(
+        render, "--camera-path", options.camera_path, parsePath, "FILE",
+        "a camera that flies along the keys in a JSON file; of --frames, frame N at N / frames_per_second seconds, or "
+        "at --time")
+        ->excludes("--camera");
+    addNamed(render, "--view", options.frame.trace.view, kViews, viewHelp())->type_name("VIEW");
+    addValue(render, "--occlusion", options.frame.trace.occlusion_rays, integerIn(0, kOcclusionRaysMax), "RAYS",
+             fmt::format("rays a pixel that find how much of the sky it sees, 0 to {} (default 0)", kOcclusionRaysMax));
+    addValue(render, "--sun", options.to_sun, parseDirection, "x,y,z", "direction to the sun (default -0.6,0.75,0.45)");
+    addPathOptions(render, options);
+    addValue(
+        render, "--exposure", options.frame.exposure,
+        [](std::string_view option, std::string_view text)
+        { return Exposure{.automatic = false, .factor = static_cast<float>(parsePositive(option, text))}; },
+        "FACTOR", "brightness of the picture (default 1; for paths, so that it is neither dark nor bright)");
+    addValue(render, "--detail", options.frame.trace.detail_pixels, parsePositive, "PIXELS",
+             "rays stop at octree nodes up to this many pixels wide (default: they go on to voxels)");
+    addValue(render, "--frames", options.frames, parseFrames, "A..B",
+             "pictures of a scene in which something moves, frame N at N / frames_per_second seconds; of any other "
+             "scene, a camera that turns once around it; #### in the output's name becomes the frame's number")
+        ->excludes("--time");
+    addStructureOption(
+        render, options.structure,
+        "trace an octree, or a DAG, which has equal subtrees once; what moves is merged with either (default svo)");
+    render.add_flag("--rebuild", options.rebuild,
+                    "voxelize everything anew for each picture of a scene in which something moves, instead of "
+                    "merging what moves with what stands still");
+    addOutputOptions(render, options.output,
+                     "the picture, a .png file, or of paths an .exr or .hdr file; - is standard output, of a .png");
+    addDeviceOptions(render, options.device);
+}
+
+void addOptions(CLI::App& voxelize, VoxelizeOptions& options)
+{
+    addVoxelOptions(voxelize, options.voxels);
+    addAttributesOption(voxelize, options.voxels.attributes);
+    addOutputOptions(voxelize, options.output, "the voxels, a .morton or .ply file; - is standard output");
+    addValue(
+        voxelize, "--format", options.format,
+        [](std::string_view option, std::string_view text) {
+            return oneOf(option, text, {"morton", "ply"});
+        },
+        "morton|ply", "what to write (default: as the output's extension says)")
+        ->group("Output");
+    addDeviceOptions(voxelize, options.device);
+}
+
+void addOptions(CLI::App& build, BuildFileOptions& options)
+{
+    addVoxelOptions(build, options.voxels);
+    addStructureOption(build, options.structure, kStructureHelp);
+    static constexpr auto kFormats = std::to_array<Named<AttributeFormat>>({{"none", AttributeFormat::None},
+                                                                            {"4", AttributeFormat::Bytes4},
+                                                                            {"8", AttributeFormat::Bytes8},
+                                                                            {"block", AttributeFormat::Blocks}});
+    addNamed(build, "--attributes", options.voxels.attributes, kFormats,
+             "colour, normal and emission of the voxels: colour and normal in 4 or 8 bytes or in blocks of 16, "
+             "which take 24; or only their places (default 8)",
+             "none, 4, 8 or block");
+    addOutputOptions(build, options.output, "the tree, a .zvo file; - is standard output");
+    addDeviceOptions(build, options.device);
+}
+
+void addOptions(CLI::App& inspect, InspectOptions& options)
+{
+    inspect.add_option("FILE", options.file, "a .zvo file")->required()->type_name("FILE");
+    inspect.add_flag("--json", options.json, "as JSON");
+}
+
+void addOptions(CLI::App& validate, ValidateOptions& options)
+{
+    validate.add_option("FILE", options.file, "a .zvo file")->required()->type_name("FILE");
+}
+
+void addOptions(CLI::App& convert, ConvertOptions& options)
+{
+    convert.add_option("FILE", options.file, "a .zvo or .vox file")->required()->type_name("FILE");
+    addStructureOption(convert, options.structure, kStructureHelp);
+    addText(convert, "-o,--output", options.output.path, "FILE",
+            "a .ply, .vox, .morton, .glb, .nvdb or .zvo file; - is standard output")
+        ->required()
+        ->group("Output");
+    convert.add_flag("-f,--force", options.output.overwrite, "overwrite a file that exists")->group("Output");
+    addValue(
+        convert, "--format", options.format,
+        [](std::string_view option, std::string_view text) {
+            return oneOf(option, text, {"ply", "vox", "morton", "glb", "nvdb", "zvo"});
+        },
+        "FORMAT", "what to write: ply, vox, morton, glb, nvdb or zvo (default: as the output's extension says)")
+        ->group("Output");
+    addDeviceOptions(convert, options.device);
+}
+
+void addOptions(CLI::App& info, InfoOptions& options)
+{
+    info.add_flag("--json", options.json, "as JSON");
+    addText(info, "--device", options.device, "NAME", "which device would be used for this choice");
+}
 
 } // namespace
 
+void checkTreeOptions(const RenderOptions& options)
+{
+    const VoxelOptions& voxels = options.voxels;
+    const VoxelOptions plain;
+    if (voxels.scenes.size() > 1)
+    {
+        throw Error(ErrorCode::Usage, "a .zvo file stands alone; build one of all that is to be seen");
+    }
+    const std::pair<const char*, bool> given[] = {
+        {"--up", voxels.load.up != plain.load.up},
+        {"--scale", voxels.load.scale != plain.load.scale},
+        {"--skip-material", !voxels.load.skip_materials.empty()},
+        {"--keep-hulls", voxels.load.keep_hulls},
+        {"--strict", voxels.load.strict},
+        {"--scenes", voxels.scenes_folder.has_value()},
+        {"--time", voxels.time.has_value() && !options.camera_path},
+        {"--resolution", voxels.depth.has_value()},
+        {"--coverage", voxels.coverage != plain.coverage},
+        {"--attributes", voxels.attributes != plain.attributes},
+        {"--bounds", voxels.bounds.has_value()},
+        {"--grid", voxels.grid_position.has_value()},
+        {"--structure", options.structure.has_value()},
+        {"--rebuild", options.rebuild},
+    };
+    for (const auto& [name, is_given] : given)
+    {
+        if (is_given)
+        {
+            throw Error(ErrorCode::Usage, fmt::format("{} does not go with {}, whose voxels are made already", name,
+                                                      voxels.scenes.front().string()));
+        }
+    }
+}
+
+void checkIntegratorOptions(const RenderOptions& options)
+{
+    using Integrators = std::initializer_list<Integrator>;
+    const Integrators of_paths = {Integrator::Path};
+    const Integrators of_kept = {Integrator::Cached, Integrator::Cones};
+    const Integrators of_samples = {Integrator::Path, Integrator::Cached, Integrator::Cones};
+    const Integrators of_primary = {Integrator::Primary};
+    const RenderOptions plain;
+    const FrameOptions& frame = options.frame;
+    const EnvironmentOptions& environment = options.environment;
+    const std::tuple<const char*, bool, Integrators> given[] = {
+        {"--spp", options.samples.has_value(), of_samples},
+        {"--bounces", frame.path.bounces != plain.frame.path.bounces, of_paths},
+        {"--seed", frame.path.seed != plain.frame.path.seed, of_samples},
+        {"--settle", options.settle != plain.settle, of_kept},
+        {"--rays", frame.radiance != plain.frame.radiance, of_kept},
+        {"--aperture", frame.path.lens_radius != plain.frame.path.lens_radius, of_paths},
+        {"--focus", frame.path.focus_distance != plain.frame.path.focus_distance, of_paths},
+        {"--environment", environment.map.has_value(), of_samples},
+        {"--environment-turn", environment.turn != plain.environment.turn, of_samples},
+        {"--environment-strength", environment.strength != plain.environment.strength, of_samples},
+        {"--denoise", frame.denoise, of_paths},
+        {"--aov", options.aovs, of_paths},
+        {"--path-form", frame.path_form.has_value(), of_paths},
+        {"--time-limit", options.time_limit.has_value(), of_samples},
+        {"--view", frame.trace.view != plain.frame.trace.view, of_primary},
+        {"--occlusion", frame.trace.occlusion_rays != plain.frame.trace.occlusion_rays, of_primary},
+        {"--detail", frame.trace.detail_pixels != plain.frame.trace.detail_pixels, of_primary},
+    };
+    for (const auto& [name, is_given, integrators] : given)
+    {
+        if (is_given && std::find(integrators.begin(), integrators.end(), frame.integrator) == integrators.end())
+        {
+            const std::string_view first = nameOf(kIntegrators, *integrators.begin());
+            throw Error(ErrorCode::Usage, integrators.size() == 1 && first == "primary"
+                                              ? fmt::format("{} does not go with --integrator {}", name,
+                                                            nameOf(kIntegrators, frame.integrator))
+                                              : fmt::format("{} needs --integrator {}", name, first));
+        }
+    }
+    const bool has_map = environment.map && *environment.map != "none";
+    if (environment.turn != plain.environment.turn && !has_map)
+    {
+        throw Error(ErrorCode::Usage, "--environment-turn needs a map: --environment FILE");
+    }
+    if (environment.strength != plain.environment.strength && !has_map)
+    {
+        throw Error(ErrorCode::Usage, "--environment-strength needs a map: --environment FILE");
+    }
+    if (frame.path.focus_distance != plain.frame.path.focus_distance &&
+        frame.path.lens_radius == plain.frame.path.lens_radius)
+    {
+        throw Error(ErrorCode::Usage, "--focus needs --aperture: all is sharp without a lens");
+    }
+    if (options.aovs && extensionOf(options.output.path) != ".exr")
+    {
+        throw Error(ErrorCode::Usage,
+                    fmt::format("--aov needs an output that ends in .exr, not {}", options.output.path));
+    }
+}
+
 int runCommandLine(int argc, const char* const* argv)
 {
-    return runProgram([&] { std::visit(Run{}, parseCommandLine(argc, argv)); });
+    return runProgram(
+        [&]
+        {
+            CLI::App app("zvo turns triangle scenes into sparse voxel octrees on the GPU and ray traces them.", "zvo");
+            describeProgram(app, kMainFooter);
+            Commands commands(app);
+            commands.add("render", "voxelize scenes, or load a tree, and ray trace a picture", kRenderFooter,
+                         addOptions, render);
+            commands.add("voxelize", "voxelize scenes and write the voxels", kVoxelizeFooter, addOptions, voxelize);
+            commands.add("build", "voxelize scenes and write the tree to a .zvo file", kBuildFooter, addOptions,
+                         buildFile);
+            commands.add("inspect", "tell what is in a .zvo file", kInspectFooter, addOptions, inspect);
+            commands.add("validate", "check everything in a .zvo file", kValidateFooter, addOptions, validate);
+            commands.add("convert", "make another kind of file of a .zvo or .vox file", kConvertFooter, addOptions,
+                         convert);
+            commands.add("info", "list the Vulkan devices and what they offer", kInfoFooter, addOptions, info);
+            commands.run(argc, argv);
+        });
 }
 
 } // namespace zvo::cli

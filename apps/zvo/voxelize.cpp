@@ -1,27 +1,84 @@
 // SPDX-License-Identifier: MIT
-#include "voxelize.h"
-
+// zvo voxelize and zvo build: the commands that make a file of a scene's voxels.
+#include "commands.h"
 #include "common/output.h"
 #include "common/progress.h"
 #include "common/report.h"
 #include "common/session.h"
-#include "core/base/kernels.h"
+#include "core/file/zvo_file.h"
 #include "core/upload/gpu_scene.h"
 #include "runtime/octree_sha256.h"
+#include "runtime/tiled_build.h"
 #include "runtime/trees.h"
 #include "tree_export.h"
 #include "zvo/error.h"
 
 #include <fmt/format.h>
 
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <memory>
 #include <optional>
+#include <span>
+#include <string>
 #include <utility>
+#include <vector>
 
 namespace zvo::cli
 {
 
 namespace
 {
+
+// A scene on the device, and the files that become of it, which are opened before the work begins.
+class VoxelRun
+{
+public:
+    VoxelRun(const VoxelOptions& voxels, const DeviceOptions& device, const OutputOptions& outputs)
+        : output(outputs.path, outputs.overwrite), m_report(openReport(outputs))
+    {
+        progress.begin("loading");
+        AnimatedScene animated =
+            loadAnimatedSceneWithWarnings(voxels, voxels.time.has_value(), ImageDecoding::WhenUploaded);
+        checkPaths(outputs, animated.files);
+        warnOfMergeRule(animated);
+        grid = placeGrid(voxels, animated, boundsOverTime(animated));
+        const double seconds = loopedTime(animated, voxels.time.value_or(0.0));
+        const Scene still = sceneAt(std::move(animated), seconds);
+        triangle_count = still.triangleCount();
+        progress.begin("copying to the device");
+        m_device = openDevice(device);
+        scene.emplace(uploadWithWarnings(*m_device, still, voxels, grid, progress));
+    }
+
+    [[nodiscard]] vk::HeadlessDevice& device() { return *m_device; }
+
+    // Completes the files. json: makes the report, if one was asked for.
+    void finish(const std::function<Json()>& json)
+    {
+        if (m_report)
+        {
+            m_report->write(jsonText(json()));
+        }
+        checkValidation(*m_device);
+        output.finish();
+        if (m_report)
+        {
+            m_report->finish();
+        }
+    }
+
+    Output output;
+    Progress progress{4};
+    Grid grid;
+    std::uint64_t triangle_count = 0;
+    std::optional<GpuScene> scene;
+
+private:
+    std::optional<Output> m_report;
+    std::shared_ptr<vk::HeadlessDevice> m_device;
+};
 
 std::string formatOf(const VoxelizeOptions& options)
 {
@@ -39,56 +96,124 @@ std::string formatOf(const VoxelizeOptions& options)
     return extension.substr(1);
 }
 
+void checkName(const OutputOptions& options)
+{
+    if (options.path != "-" && extensionOf(options.path) != ".zvo")
+    {
+        throw Error(ErrorCode::Usage, fmt::format("-o {}: trees are .zvo files; name it .zvo", options.path));
+    }
+}
+
+// A tree, and numbers on how it was made.
+struct Built
+{
+    TreeData tree;
+    std::map<std::string, std::uint64_t> dropped; // dropped triangles, by reason
+    std::vector<vk::PassTime> passes;
+    std::uint32_t retry_count = 0;
+    std::uint32_t tile_count = 1;
+};
+
+Built buildSvo(VoxelRun& run, const BuildFileOptions& options)
+{
+    BuildResult result =
+        buildOctree(run.device(), *run.scene, run.grid, {options.voxels.coverage, options.voxels.hasAttributes(), {}});
+    const std::vector<vk::PassTime> packing = packTree(run.device(), options.voxels.attributes, result.octree);
+    result.passes.insert(result.passes.end(), packing.begin(), packing.end());
+    return {downloadTree(run.device(), result.octree), std::move(result.dropped), std::move(result.passes),
+            result.retry_count};
+}
+
+Built buildSvdag(VoxelRun& run, const BuildFileOptions& options)
+{
+    TiledOptions tiled{.coverage = options.voxels.coverage, .attributes = options.voxels.attributes};
+    tiled.progress = [&run](double done) { run.progress.within(done); };
+    TiledResult result = buildByTiles(run.device(), *run.scene, run.grid, tiled);
+    return {std::move(result.tree), std::move(result.dropped), std::move(result.passes), result.retry_count,
+            result.tile_count};
+}
+
+Json builtJson(VoxelRun& run, const BuildFileOptions& options, const Built& built)
+{
+    const TreeData& tree = built.tree;
+    Json json = headJson("zvo.build/1", run.device().device().report(), options.voxels, tree.grid);
+    json["scene"] = {{"triangles", run.triangle_count}, {"dropped", built.dropped}};
+    json["structure"] = structureName(tree.structure);
+    json["attribute_form"] = formatName(tree.attributeFormat());
+    json["voxels"] = tree.voxel_count;
+    json["nodes"] = tree.octree_node_count;
+    json["nodes_stored"] = tree.nodes.size();
+    json["tiles"] = built.tile_count;
+    json["bytes"] = {{"geometry", tree.geometryBytes()},
+                     {"attributes", tree.attributeBytes()},
+                     {"peak_device", run.device().device().memory().peakBytes()}};
+    json["cold_run"] = true; // times include what a device does only at first
+    json["retries"] = built.retry_count;
+    json["passes"] = passesJson(sumByName(built.passes));
+    json["voxelize_ms"] = operationMs(built.passes, "voxelize");
+    json["build_ms"] = operationMs(built.passes, "octree");
+    json["compress_ms"] =
+        tree.structure == TreeStructure::Svdag ? Json(operationMs(built.passes, "svdag")) : Json(nullptr);
+    json["pack_ms"] =
+        isPacked(options.voxels.attributes) ? Json(operationMs(built.passes, "attributes")) : Json(nullptr);
+    json["trace_ms"] = nullptr;
+    return json;
+}
+
 } // namespace
 
 void voxelize(const VoxelizeOptions& options)
 {
     checkPaths(options.output, options.voxels.scenes);
     const std::string format = formatOf(options);
-    Output output(options.output.path, options.output.overwrite);
-    std::optional<Output> report = openReport(options.output);
+    VoxelRun run(options.voxels, options.device, options.output);
+    vk::HeadlessDevice& device = run.device();
 
-    Progress progress(4);
-    progress.begin("loading");
-    AnimatedScene animated =
-        loadAnimatedSceneWithWarnings(options.voxels, options.voxels.time.has_value(), ImageDecoding::WhenUploaded);
-    checkPaths(options.output, animated.files);
-    warnOfMergeRule(animated);
-    const Grid grid = placeGrid(options.voxels, animated, boundsOverTime(animated));
-    Scene scene = sceneAt(std::move(animated), loopedTime(animated, options.voxels.time.value_or(0.0)));
-    const std::uint64_t triangle_count = scene.triangleCount();
-
-    progress.begin("copying to the device");
-    const std::shared_ptr<vk::HeadlessDevice> opened = openDevice(options.device);
-    vk::HeadlessDevice& device = *opened;
-    const GpuScene gpu_scene = uploadWithWarnings(device, scene, options.voxels, grid, progress);
-    scene = {};
-
-    progress.begin("voxelizing");
+    run.progress.begin("voxelizing");
     const BuildResult result =
-        buildOctree(device, gpu_scene, grid, {options.voxels.coverage, options.voxels.hasAttributes(), {}});
+        buildOctree(device, *run.scene, run.grid, {options.voxels.coverage, options.voxels.hasAttributes(), {}});
     warnOfDropped(result.octree.voxel_count, result.dropped);
 
-    progress.begin("writing");
+    run.progress.begin("writing");
     {
         const TreeData tree = downloadTree(device, result.octree);
-        format == "morton" ? writeMorton(tree, output) : writePly(tree, output);
+        format == "morton" ? writeMorton(tree, run.output) : writePly(tree, run.output);
     }
-    if (report)
-    {
-        const Json json = octreeJson("zvo.voxelize/1", device.device().report(), options.voxels, triangle_count, result,
-                                     octreeSha256(device, result.octree), device.device().memory().peakBytes());
-        report->write(jsonText(json));
-    }
-    checkValidation(device);
-    output.finish();
-    if (report)
-    {
-        report->finish();
-    }
+    run.finish(
+        [&]
+        {
+            return octreeJson("zvo.voxelize/1", device.device().report(), options.voxels, run.triangle_count, result,
+                              octreeSha256(device, result.octree), device.device().memory().peakBytes());
+        });
     talk(fmt::format("{} voxels of {}^3 from {} triangles; voxelize {:.1f} ms, build {:.1f} ms on {}",
-                     result.octree.voxel_count, grid.resolution(), triangle_count, result.operationMs("voxelize"),
-                     result.operationMs("octree"), device.device().report().name));
+                     result.octree.voxel_count, run.grid.resolution(), run.triangle_count,
+                     result.operationMs("voxelize"), result.operationMs("octree"), device.device().report().name));
+}
+
+void buildFile(const BuildFileOptions& options)
+{
+    checkName(options.output);
+    checkPaths(options.output, options.voxels.scenes);
+    VoxelRun run(options.voxels, options.device, options.output);
+
+    run.progress.begin("building");
+    const bool is_dag = options.structure == TreeStructure::Svdag;
+    const Built built = is_dag ? buildSvdag(run, options) : buildSvo(run, options);
+    run.scene.reset();
+    warnOfDropped(built.tree.voxel_count, built.dropped);
+
+    run.progress.begin("writing");
+    writeZvo(built.tree, [&run](std::span<const std::byte> bytes) { run.output.write(bytes); });
+    run.finish([&] { return builtJson(run, options, built); });
+    talk(fmt::format(
+        "{} voxels of {}^3 from {} triangles; {} bytes of nodes, {} of attributes; voxelize {:.1f} ms, "
+        "build {:.1f} ms{}{} on {}",
+        built.tree.voxel_count, run.grid.resolution(), run.triangle_count, built.tree.geometryBytes(),
+        built.tree.attributeBytes(), operationMs(built.passes, "voxelize"), operationMs(built.passes, "octree"),
+        is_dag ? fmt::format(", compress {:.1f} ms", operationMs(built.passes, "svdag")) : "",
+        isPacked(options.voxels.attributes) ? fmt::format(", pack {:.1f} ms", operationMs(built.passes, "attributes"))
+                                            : "",
+        run.device().device().report().name));
 }
 
 } // namespace zvo::cli

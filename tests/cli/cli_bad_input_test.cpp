@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Malicious scenes give one line and exit code 3. Where parts of a scene can be used they are, with a warning.
-#include "cli/cli_scene.h"
-#include "cli/run_zvo.h"
-#include "io/image/image_io.h"
-#include "support/temp_dir.h"
+#include "cli/cli_folder.h"
 
 #include <functional>
 #include <gtest/gtest.h>
@@ -67,69 +64,48 @@ const std::vector<BadScene>& badScenes()
     return scenes;
 }
 
-class CliBadScene : public testing::TestWithParam<BadScene>
+class CliBadScene : public CliFolder, public testing::WithParamInterface<BadScene>
 {
 };
+using CliBadInput = CliFolder;
 
 INSTANTIATE_TEST_SUITE_P(Cli, CliBadScene, testing::ValuesIn(badScenes()),
                          [](const auto& test_case) { return std::string(test_case.param.name); });
 
 TEST_P(CliBadScene, IsOneLineAndExitCodeThree)
 {
-    const TempDir dir;
     GltfBuilder builder = coloredCube();
     GetParam().change(builder);
-    dir.write("scene.glb", builder.glb());
-    expectErrorLine(runZvo(dir.path(), {"voxelize", "scene.glb", "-o", "a.ply", "--resolution", "8"}), 3,
-                    {GetParam().word});
-    EXPECT_EQ(filesIn(dir.path()), std::vector<std::string>{"scene.glb"});
+    m_dir.write("cube.glb", builder.glb());
+    expectError("voxelize cube.glb -o a.ply --resolution 8", 3, {GetParam().word});
+    EXPECT_EQ(filesIn(m_dir.path()), std::vector<std::string>{"cube.glb"});
 }
 
-TEST(CliBadInput, TexturesThatCannotBeUsedAreLeftOutUnlessStrict)
+TEST_F(CliBadInput, TexturesThatCannotBeUsedAreLeftOutUnlessStrict)
 {
-    const TempDir dir;
     GltfBuilder builder = coloredCube();
     texture(builder, {{"uri", "absent.png"}});
-    dir.write("scene.glb", builder.glb());
-    const std::vector<std::string> arguments = {"voxelize", "scene.glb", "-o", "a.morton", "--resolution", "8"};
-    const Outcome outcome = runZvo(dir.path(), arguments);
-    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
-    EXPECT_TRUE(contains(outcome.err, "warning: scene.glb: texture left out: images[0].uri is absent.png"))
-        << outcome.err;
-    std::vector<std::string> strict = arguments;
-    strict.insert(strict.end(), {"--strict", "-f"});
-    expectErrorLine(runZvo(dir.path(), strict), 3, {"absent.png", "strict"});
+    m_dir.write("scene.glb", builder.glb());
+    const std::string told = run("voxelize scene.glb -o a.morton --resolution 8").err;
+    EXPECT_TRUE(contains(told, "warning: scene.glb: texture left out: images[0].uri is absent.png")) << told;
+    expectError("voxelize scene.glb -o a.morton --resolution 8 --strict -f", 3, {"absent.png", "strict"});
 }
 
-TEST(CliBadInput, EmptySceneRendersTheBackground)
+TEST_F(CliBadInput, EmptySceneRendersTheBackground)
 {
-    const TempDir dir;
-    dir.write("empty.glb", GltfBuilder().glb());
-    dir.write("cube.glb", coloredCube().glb());
-    const auto render = [&](const std::string& name)
-    {
-        // The camera looks away from the cube, so that both pictures show only the background.
-        return runZvo(dir.path(), {"render", name + ".glb", "-o", name + ".png", "--size", "40x30", "--resolution", "8",
-                                   "--camera", "0.5,0.5,4,0.5,0.5,9"});
-    };
-    const Outcome outcome = render("empty");
-    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
-    EXPECT_TRUE(contains(outcome.err, "warning: the scene has no triangles")) << outcome.err;
-    EXPECT_EQ(render("cube").exit_code, 0);
-    const auto pixels = [&](const char* name)
-    {
-        const std::string png = contentOf(dir.path() / name);
-        return decodeImage(std::span(reinterpret_cast<const std::uint8_t*>(png.data()), png.size()), name, name).rgba;
-    };
-    EXPECT_EQ(pixels("empty.png").size(), 40U * 30 * 4);
-    EXPECT_EQ(pixels("empty.png"), pixels("cube.png"));
+    m_dir.write("empty.glb", GltfBuilder().glb());
+    // The camera looks away from the cube, so that both pictures show only the background.
+    const std::string options = " --size 40x30 --resolution 8 --camera 0.5,0.5,4,0.5,0.5,9";
+    const std::string told = run("render empty.glb -o empty.png" + options).err;
+    EXPECT_TRUE(contains(told, "warning: the scene has no triangles")) << told;
+    run("render cube.glb -o cube.png" + options);
+    EXPECT_EQ(pixels("empty.png").rgba.size(), 40U * 30 * 4);
+    EXPECT_EQ(pixels("empty.png").rgba, pixels("cube.png").rgba);
 }
 
-TEST(CliBadInput, TrianglesThatAreNotFiniteAreCountedAndTheRestIsUsed)
+TEST_F(CliBadInput, TrianglesThatAreNotFiniteAreCountedAndTheRestIsUsed)
 {
-    const TempDir dir;
     GltfBuilder builder = coloredCube();
-    dir.write("cube.glb", builder.glb());
     const float nan = std::numeric_limits<float>::quiet_NaN();
     const float infinite = std::numeric_limits<float>::infinity();
     const std::size_t positions =
@@ -138,16 +114,11 @@ TEST(CliBadInput, TrianglesThatAreNotFiniteAreCountedAndTheRestIsUsed)
                               0,   0,        0, -infinite, 0, 0, 0, infinite, 0,   // both ways
                               1,   1,        1, 1,         1, 1, 1, 1,        1}); // no area
     builder.addMeshNode({{"attributes", {{"POSITION", positions}}}});
-    dir.write("odd.glb", builder.glb());
-    const auto voxelize = [&](const std::string& name)
-    {
-        Outcome outcome = runZvo(dir.path(), {"voxelize", name + ".glb", "-o", name + ".morton", "--resolution", "8"});
-        EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
-        return outcome.err;
-    };
-    EXPECT_FALSE(contains(voxelize("cube"), "warning"));
-    EXPECT_TRUE(contains(voxelize("odd"), "warning: 3 triangles left out (nonfinite)"));
-    EXPECT_EQ(contentOf(dir.path() / "odd.morton"), contentOf(dir.path() / "cube.morton"));
+    m_dir.write("odd.glb", builder.glb());
+    EXPECT_FALSE(contains(run("voxelize cube.glb -o cube.morton --resolution 8").err, "warning"));
+    EXPECT_TRUE(contains(run("voxelize odd.glb -o odd.morton --resolution 8").err,
+                         "warning: 3 triangles left out (nonfinite)"));
+    EXPECT_EQ(file("odd.morton"), file("cube.morton"));
 }
 
 } // namespace

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Messages and exit codes when something is wrong: one line on standard error, and the right code.
-#include "cli/cli_scene.h"
-#include "cli/run_zvo.h"
-#include "support/temp_dir.h"
+#include "cli/cli_folder.h"
 
 #include <gtest/gtest.h>
 
@@ -18,111 +16,73 @@ namespace
 const std::vector<WrongUse>& wrongUses()
 {
     static const std::vector<WrongUse> uses = {
-        {"NoCommand", 2, {}, {"render, voxelize, build, inspect, validate, convert or info"}, {}},
-        {"UnknownCommand", 2, {"rendr"}, {"rendr"}, {}},
-        {"UnknownFlag", 2, {"render", "cube.glb", "-o", "a.png", "--colour"}, {"--colour", "zvo render --help"}, {}},
-        {"NoScene", 2, {"render", "-o", "a.png"}, {"SCENE"}, {}},
-        {"NoOutput", 2, {"render", "cube.glb"}, {"--output"}, {}},
-        {"ResolutionOfNoPowerOfTwo",
-         2,
-         {"render", "cube.glb", "-o", "a.png", "--resolution", "500"},
-         {"500", "power of two"},
-         {}},
-        {"ResolutionTooHigh",
-         2,
-         {"render", "cube.glb", "-o", "a.png", "--resolution", "262144"},
-         {"262144", "131072"},
-         {}},
-        {"TuningOfNothing",
-         2,
-         {"render", "cube.glb", "-o", "a.png", "--tuning", "rows=3"},
-         {"--tuning rows=3", "row-columns"},
-         {}},
-        {"TuningOfAnotherValue",
-         2,
-         {"render", "cube.glb", "-o", "a.png", "--tuning", "row-columns=3"},
-         {"--tuning row-columns=3", "16, 32"},
-         {}},
-        {"FlagTwice",
-         2,
-         {"voxelize", "cube.glb", "-o", "a.ply", "--resolution", "8", "--resolution", "16"},
-         {"--resolution"},
-         {}},
-        {"SizeOfOneNumber", 2, {"render", "cube.glb", "-o", "a.png", "--size", "1280"}, {"1280x720"}, {}},
-        {"UnknownView", 2, {"render", "cube.glb", "-o", "a.png", "--view", "xray"}, {"xray", "normal"}, {}},
-        {"UnknownCamera", 2, {"render", "cube.glb", "-o", "a.png", "--camera", "back"}, {"back", "\"front\""}, {}},
-        {"CameraOfFiveNumbers", 2, {"render", "cube.glb", "-o", "a.png", "--camera", "1,2,3,4,5"}, {"5 numbers"}, {}},
-        {"BoundsUpsideDown", 2, {"voxelize", "cube.glb", "-o", "a.ply", "--bounds", "1,0,0,0,1,1"}, {"x0 <= x1"}, {}},
-        {"BoundsAndGrid",
-         2,
-         {"voxelize", "cube.glb", "-o", "a.ply", "--bounds", "0,0,0,1,1,1", "--grid", "0,0,0,1"},
-         {"--grid"},
-         {}},
-        {"MemoryLimitWithoutNumber", 2, {"voxelize", "cube.glb", "-o", "a.ply", "--memory-limit", "G"}, {"512M"}, {}},
-        {"MemoryLimitInBytesOfNothing",
-         2,
-         {"voxelize", "cube.glb", "-o", "a.ply", "--memory-limit", "2iB"},
-         {"512M"},
-         {}},
-        {"NumberInAnotherLocale", 2, {"voxelize", "cube.glb", "-o", "a.ply", "--grid", "0;0;0;0,1"}, {"numbers"}, {}},
-        {"PictureOfUnknownExtension", 2, {"render", "cube.glb", "-o", "a.jpg"}, {"a.jpg", ".png"}, {}},
-        {"VoxelsOfUnknownExtension", 2, {"voxelize", "cube.glb", "-o", "a.vox"}, {"a.vox", ".morton", ".ply"}, {}},
-        {"FramesWithoutPlaceForNumber", 2, {"render", "cube.glb", "-o", "a.png", "--frames", "0..3"}, {"####"}, {}},
-        {"FramesBackwards", 2, {"render", "cube.glb", "-o", "a_#.png", "--frames", "3..0"}, {"0..35"}, {}},
-        {"BothOutputsToStandardOutput", 2, {"render", "cube.glb", "-o", "-", "--json", "-"}, {"two places"}, {}},
-        {"BothOutputsToOneFile", 2, {"render", "cube.glb", "-o", "a.png", "--json", "./a.png"}, {"two places"}, {}},
+        {"NoCommand", 2, "", {"render, voxelize, build, inspect, validate, convert or info"}},
+        {"UnknownCommand", 2, "rendr", {"rendr"}},
+        {"UnknownFlag", 2, "render cube.glb -o a.png --colour", {"--colour", "zvo render --help"}},
+        {"NoScene", 2, "render -o a.png", {"SCENE"}},
+        {"NoOutput", 2, "render cube.glb", {"--output"}},
+        {"ResolutionOfNoPowerOfTwo", 2, "render cube.glb -o a.png --resolution 500", {"500", "power of two"}},
+        {"ResolutionTooHigh", 2, "render cube.glb -o a.png --resolution 262144", {"262144", "131072"}},
+        {"TuningOfNothing", 2, "render cube.glb -o a.png --tuning rows=3", {"--tuning rows=3", "row-columns"}},
+        {
+            "TuningOfAnotherValue",
+            2,
+            "render cube.glb -o a.png --tuning row-columns=3",
+            {"--tuning row-columns=3", "16, 32"},
+        },
+        {"FlagTwice", 2, "voxelize cube.glb -o a.ply --resolution 8 --resolution 16", {"--resolution"}},
+        {"SizeOfOneNumber", 2, "render cube.glb -o a.png --size 1280", {"1280x720"}},
+        {"UnknownView", 2, "render cube.glb -o a.png --view xray", {"xray", "normal"}},
+        {"UnknownCamera", 2, "render cube.glb -o a.png --camera back", {"back", "\"front\""}},
+        {"CameraOfFiveNumbers", 2, "render cube.glb -o a.png --camera 1,2,3,4,5", {"5 numbers"}},
+        {"BoundsUpsideDown", 2, "voxelize cube.glb -o a.ply --bounds 1,0,0,0,1,1", {"x0 <= x1"}},
+        {"BoundsAndGrid", 2, "voxelize cube.glb -o a.ply --bounds 0,0,0,1,1,1 --grid 0,0,0,1", {"--grid"}},
+        {"MemoryLimitWithoutNumber", 2, "voxelize cube.glb -o a.ply --memory-limit G", {"512M"}},
+        {"MemoryLimitInBytesOfNothing", 2, "voxelize cube.glb -o a.ply --memory-limit 2iB", {"512M"}},
+        {"NumberInAnotherLocale", 2, "voxelize cube.glb -o a.ply --grid 0;0;0;0,1", {"numbers"}},
+        {"PictureOfUnknownExtension", 2, "render cube.glb -o a.jpg", {"a.jpg", ".png"}},
+        {"VoxelsOfUnknownExtension", 2, "voxelize cube.glb -o a.vox", {"a.vox", ".morton", ".ply"}},
+        {"FramesWithoutPlaceForNumber", 2, "render cube.glb -o a.png --frames 0..3", {"####"}},
+        {"FramesBackwards", 2, "render cube.glb -o a_#.png --frames 3..0", {"0..35"}},
+        {"BothOutputsToStandardOutput", 2, "render cube.glb -o - --json -", {"two places"}},
+        {"BothOutputsToOneFile", 2, "render cube.glb -o a.png --json ./a.png", {"two places"}},
 
-        {"OutputIsTheInput",
-         2,
-         {"voxelize", "cube.glb", "-o", "./cube.glb", "--format", "ply", "-f"},
-         {"overwritten"},
-         {}},
-        {"ReportIsTheInput", 2, {"render", "cube.glb", "-o", "a.png", "--json", "cube.glb", "-f"}, {"overwritten"}, {}},
+        {"OutputIsTheInput", 2, "voxelize cube.glb -o ./cube.glb --format ply -f", {"overwritten"}},
+        {"ReportIsTheInput", 2, "render cube.glb -o a.png --json cube.glb -f", {"overwritten"}},
 
-        {"InputIsADevice", 3, {"render", "/dev/zero", "-o", "a.png"}, {"/dev/zero", "device"}, {}},
-        {"MissingFile", 3, {"render", "absent.glb", "-o", "a.png"}, {"absent.glb", "No such file"}, {}},
-        {"BrokenGlb", 3, {"render", "broken.glb", "-o", "a.png"}, {"broken.glb"}, {}},
-        {"EmptyFile", 3, {"voxelize", "empty.glb", "-o", "a.ply"}, {"empty.glb"}, {}},
-        {"MissingBuffer", 3, {"voxelize", "no_buffer.gltf", "-o", "a.ply"}, {"absent.bin"}, {}},
-        {"UnknownRequiredExtension", 3, {"voxelize", "extension.glb", "-o", "a.ply"}, {"EXT_from_the_future"}, {}},
+        {"InputIsADevice", 3, "render /dev/zero -o a.png", {"/dev/zero", "device"}},
+        {"MissingFile", 3, "render absent.glb -o a.png", {"absent.glb", "No such file"}},
+        {"BrokenGlb", 3, "render broken.glb -o a.png", {"broken.glb"}},
+        {"EmptyFile", 3, "voxelize empty.glb -o a.ply", {"empty.glb"}},
+        {"MissingBuffer", 3, "voxelize no_buffer.gltf -o a.ply", {"absent.bin"}},
+        {"UnknownRequiredExtension", 3, "voxelize extension.glb -o a.ply", {"EXT_from_the_future"}},
 
-        {"PictureExists", 4, {"render", "cube.glb", "-o", "taken.png"}, {"taken.png", "-f"}, {}},
-        {"ReportExists", 4, {"render", "cube.glb", "-o", "a.png", "--json", "taken.png"}, {"taken.png", "-f"}, {}},
-        {"FrameExists", 4, {"render", "cube.glb", "-o", "frame#.png", "--frames", "0..3"}, {"frame2.png", "-f"}, {}},
-        {"OutputInMissingFolder", 4, {"voxelize", "absent.glb", "-o", "absent/a.ply"}, {"absent/a.ply"}, {}},
-        {"OutputIsAFolder", 4, {"voxelize", "cube.glb", "-o", ".", "--format", "ply"}, {"directory"}, {}},
-        {"DiskFull",
-         4,
-         {"voxelize", "cube.glb", "-o", "/dev/full", "--format", "ply", "--resolution", "8"},
-         {"No space left"},
-         {}},
+        {"PictureExists", 4, "render cube.glb -o taken.png", {"taken.png", "-f"}},
+        {"ReportExists", 4, "render cube.glb -o a.png --json taken.png", {"taken.png", "-f"}},
+        {"FrameExists", 4, "render cube.glb -o frame#.png --frames 0..3", {"frame2.png", "-f"}},
+        {"OutputInMissingFolder", 4, "voxelize absent.glb -o absent/a.ply", {"absent/a.ply"}},
+        {"OutputIsAFolder", 4, "voxelize cube.glb -o . --format ply", {"directory"}},
+        {"DiskFull", 4, "voxelize cube.glb -o /dev/full --format ply --resolution 8", {"No space left"}},
 
-        {"UnknownDevice",
-         5,
-         {"voxelize", "cube.glb", "-o", "a.ply", "--device", "voodoo"},
-         {"voodoo", "the devices are 0: "},
-         {}},
+        {"UnknownDevice", 5, "voxelize cube.glb -o a.ply --device voodoo", {"voodoo", "the devices are 0: "}},
         {"NoDriver",
          5,
-         {"voxelize", "cube.glb", "-o", "a.ply"},
+         "voxelize cube.glb -o a.ply",
          {"Vulkan"},
          {"VK_ICD_FILENAMES=/absent.json", "VK_DRIVER_FILES=/absent.json"}},
 
-        {"PictureTooLarge",
-         6,
-         {"render", "cube.glb", "-o", "a.png", "--resolution", "8", "--size", "16384x16384", "--memory-limit", "1G"},
-         {"16384 x 16384 pixels (--size)", "raise --memory-limit, or", "a smaller picture"},
-         {}},
-        {"MemoryLimitTooLow",
-         6,
-         {"voxelize", "cube.glb", "-o", "a.ply", "--memory-limit", "64KiB"},
-         {"raise --memory-limit, or"},
-         {}},
+        {
+            "PictureTooLarge",
+            6,
+            "render cube.glb -o a.png --resolution 8 --size 16384x16384 --memory-limit 1G",
+            {"16384 x 16384 pixels (--size)", "raise --memory-limit, or", "a smaller picture"},
+        },
+        {"MemoryLimitTooLow", 6, "voxelize cube.glb -o a.ply --memory-limit 64KiB", {"raise --memory-limit, or"}},
     };
     return uses;
 }
 
-class CliError : public testing::TestWithParam<WrongUse>
+class CliError : public CliFolder, public testing::WithParamInterface<WrongUse>
 {
 };
 
@@ -131,35 +91,34 @@ INSTANTIATE_TEST_SUITE_P(Cli, CliError, testing::ValuesIn(wrongUses()),
 
 TEST_P(CliError, IsOneLineAndAnExitCodeAndLeavesNothingBehind)
 {
-    const TempDir dir;
     GltfBuilder builder = coloredCube();
     const std::vector<std::uint8_t> cube = builder.glb();
-    dir.write("cube.glb", cube);
-    dir.write("broken.glb", std::span(cube).first(cube.size() / 2));
-    dir.write("empty.glb", std::string_view());
-    dir.write("taken.png", std::string_view("kept"));
-    dir.write("frame2.png", std::string_view("kept"));
+    m_dir.write("broken.glb", std::span(cube).first(cube.size() / 2));
+    m_dir.write("empty.glb", std::string_view());
+    m_dir.write("taken.png", std::string_view("kept"));
+    m_dir.write("frame2.png", std::string_view("kept"));
     json no_buffer = builder.finished();
     no_buffer["buffers"][0]["uri"] = "absent.bin";
-    dir.write("no_buffer.gltf", no_buffer.dump());
+    m_dir.write("no_buffer.gltf", no_buffer.dump());
     builder.document["extensionsUsed"] = builder.document["extensionsRequired"] = {"EXT_from_the_future"};
-    dir.write("extension.glb", builder.glb());
-    const std::vector<std::string> before = filesIn(dir.path());
+    m_dir.write("extension.glb", builder.glb());
+    const std::vector<std::string> before = filesIn(m_dir.path());
 
-    const Outcome outcome = runZvo(dir.path(), GetParam().arguments, GetParam().environment);
+    const Outcome outcome = runZvo(m_dir.path(), GetParam().arguments, GetParam().environment);
     expectErrorLine(outcome, GetParam().exit_code, GetParam().words);
-    EXPECT_EQ(filesIn(dir.path()), before);
-    EXPECT_EQ(contentOf(dir.path() / "taken.png"), "kept");
+    EXPECT_EQ(filesIn(m_dir.path()), before);
+    EXPECT_EQ(file("taken.png"), "kept");
 }
 
-TEST(Cli, InterruptLeavesNoFile)
+using Cli = CliFolder;
+
+TEST_F(Cli, InterruptLeavesNoFile)
 {
-    const TempDir dir;
     const TempDir out;
-    const std::string scene = dir.write("cube.glb", coloredCube().glb()).string();
     for (const int signal : {SIGINT, SIGTERM})
     {
-        ZvoProcess process(out.path(), {"voxelize", scene, "-o", "a.ply", "--resolution", "2048"});
+        ZvoProcess process(out.path(),
+                           "voxelize " + (m_dir.path() / "cube.glb").string() + " -o a.ply --resolution 2048");
         while (filesIn(out.path()).empty()) // the output begins with a temporary file
         {
             std::this_thread::sleep_for(std::chrono::milliseconds(1));
@@ -171,15 +130,12 @@ TEST(Cli, InterruptLeavesNoFile)
     }
 }
 
-TEST(Cli, ForceOverwrites)
+TEST_F(Cli, ForceOverwrites)
 {
-    const TempDir dir;
-    dir.write("cube.glb", coloredCube().glb());
-    dir.write("a.morton", std::string_view("old"));
-    const Outcome outcome = runZvo(dir.path(), {"voxelize", "cube.glb", "-o", "a.morton", "--resolution", "8", "-f"});
-    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
-    EXPECT_EQ(contentOf(dir.path() / "a.morton").size() % 8, 0U);
-    EXPECT_EQ(filesIn(dir.path()), (std::vector<std::string>{"a.morton", "cube.glb"}));
+    m_dir.write("a.morton", std::string_view("old"));
+    run("voxelize cube.glb -o a.morton --resolution 8 -f");
+    EXPECT_EQ(file("a.morton").size() % 8, 0U);
+    EXPECT_EQ(filesIn(m_dir.path()), (std::vector<std::string>{"a.morton", "cube.glb"}));
 }
 
 } // namespace

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
 // The same mesh in every format gives the same voxels, bit for bit.
-#include "cli_scene.h"
-#include "run_zvo.h"
+#include "cli/cli_folder.h"
 #include "support/mesh_files.h"
 
 #include <gtest/gtest.h>
+
+#include <filesystem>
 
 namespace zvo::test
 {
@@ -31,38 +32,38 @@ std::vector<std::uint8_t> asGlb(const FileMesh& mesh)
     return builder.glb();
 }
 
-/// The Morton codes that zvo voxelize writes. If it fails, the test fails, and there are none.
-std::string codesOf(const TempDir& dir, std::vector<std::string> arguments)
+class CliFormats : public CliFolder
 {
-    arguments.insert(arguments.begin(), "voxelize");
-    arguments.insert(arguments.end(), {"-o", "out.morton", "-f", "--resolution", "64"});
-    const Outcome outcome = runZvo(dir.path(), arguments);
-    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
-    return outcome.exit_code == 0 ? contentOf(dir.path() / "out.morton") : "";
-}
+protected:
+    /// The Morton codes that zvo voxelize writes. If it fails, the test fails, and there are none.
+    [[nodiscard]] std::string codesOf(const std::string& arguments) const
+    {
+        std::filesystem::remove(m_dir.path() / "out.morton");
+        run("voxelize -o out.morton --resolution 64 " + arguments);
+        return file("out.morton");
+    }
+};
 
-TEST(CliFormats, OneMeshGivesTheSameVoxelsInEveryFormat)
+TEST_F(CliFormats, OneMeshGivesTheSameVoxelsInEveryFormat)
 {
-    const TempDir dir;
     const FileMesh mesh = bentSheet(12);
-    dir.write("mesh.glb", asGlb(mesh));
-    dir.write("mesh.obj", asObj(mesh));
-    dir.write("text.ply", asPly(mesh, PlyEncoding::Text));
-    dir.write("little.ply", asPly(mesh, PlyEncoding::LittleEndian));
-    dir.write("text.stl", asTextStl(mesh));
-    dir.write("binary.stl", asBinaryStl(mesh));
-    const std::string codes = codesOf(dir, {"mesh.glb"});
+    m_dir.write("mesh.glb", asGlb(mesh));
+    m_dir.write("mesh.obj", asObj(mesh));
+    m_dir.write("text.ply", asPly(mesh, PlyEncoding::Text));
+    m_dir.write("little.ply", asPly(mesh, PlyEncoding::LittleEndian));
+    m_dir.write("text.stl", asTextStl(mesh));
+    m_dir.write("binary.stl", asBinaryStl(mesh));
+    const std::string codes = codesOf("mesh.glb");
     EXPECT_GT(codes.size(), 8 * 1000U);
     for (const char* name : {"mesh.obj", "text.ply", "little.ply", "text.stl", "binary.stl"})
     {
-        EXPECT_EQ(codesOf(dir, {name}), codes) << name;
+        EXPECT_EQ(codesOf(name), codes) << name;
     }
-    EXPECT_EQ(codesOf(dir, {"mesh.obj", "text.stl", "mesh.glb"}), codes); // three copies of the sheet
+    EXPECT_EQ(codesOf("mesh.obj text.stl mesh.glb"), codes); // three copies of the sheet
 }
 
-TEST(CliFormats, UpAndScaleMoveTheFilesNotTheVoxels)
+TEST_F(CliFormats, UpAndScaleMoveTheFilesNotTheVoxels)
 {
-    const TempDir dir;
     const FileMesh mesh = bentSheet(12);
     FileMesh lying = mesh; // with z up
     for (glm::vec3& p : lying.positions)
@@ -74,44 +75,34 @@ TEST(CliFormats, UpAndScaleMoveTheFilesNotTheVoxels)
     {
         p *= 1024.0F;
     }
-    dir.write("mesh.glb", asGlb(mesh));
-    dir.write("lying.stl", asBinaryStl(lying));
-    dir.write("millimetres.ply", asPly(millimeters, PlyEncoding::LittleEndian));
-    const std::string bounds = "--bounds=-2,-2,-4,6,6,4";
-    const std::string codes = codesOf(dir, {"mesh.glb", bounds});
-    EXPECT_EQ(codesOf(dir, {"lying.stl", "--up", "z", bounds}), codes);
-    EXPECT_NE(codesOf(dir, {"lying.stl", bounds}), codes);
-    EXPECT_NE(codesOf(dir, {"lying.stl", "--up=-z", bounds}), codes);
-    EXPECT_EQ(codesOf(dir, {"millimetres.ply", "--scale", "0.0009765625", bounds}), codes);
-    EXPECT_EQ(codesOf(dir, {"millimetres.ply"}), codesOf(dir, {"mesh.glb"})); // the grid grows with the mesh
+    m_dir.write("mesh.glb", asGlb(mesh));
+    m_dir.write("lying.stl", asBinaryStl(lying));
+    m_dir.write("millimetres.ply", asPly(millimeters, PlyEncoding::LittleEndian));
+    const std::string bounds = " --bounds=-2,-2,-4,6,6,4 ";
+    const std::string codes = codesOf("mesh.glb" + bounds);
+    EXPECT_EQ(codesOf("lying.stl --up z" + bounds), codes);
+    EXPECT_NE(codesOf("lying.stl" + bounds), codes);
+    EXPECT_NE(codesOf("lying.stl --up=-z" + bounds), codes);
+    EXPECT_EQ(codesOf("millimetres.ply --scale 0.0009765625" + bounds), codes);
+    EXPECT_EQ(codesOf("millimetres.ply"), codesOf("mesh.glb")); // the grid grows with the mesh
 }
 
-TEST(CliFormats, RenderTakesSeveralFormatsAndUp)
+TEST_F(CliFormats, RenderTakesSeveralFormatsAndUp)
 {
-    const TempDir dir;
-    dir.write("cube.glb", coloredCube().glb());
-    dir.write("mesh.obj", asObj(bentSheet(3)));
-    const Outcome outcome = runZvo(dir.path(), {"render", "cube.glb", "mesh.obj", "-o", "a.png", "--resolution", "32",
-                                                "--size", "32x32", "--up", "-y", "--scale", "2"});
-    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
-    EXPECT_TRUE(contains(outcome.err, "30 triangles")) << outcome.err;
+    m_dir.write("mesh.obj", asObj(bentSheet(3)));
+    const std::string told =
+        run("render cube.glb mesh.obj -o a.png --resolution 32 --size 32x32 --up -y --scale 2").err;
+    EXPECT_TRUE(contains(told, "30 triangles")) << told;
 }
 
-TEST(CliFormats, WrongUpAndScaleAreUsageErrors)
+TEST_F(CliFormats, WrongUpAndScaleAreUsageErrors)
 {
-    const TempDir dir;
-    dir.write("cube.glb", coloredCube().glb());
-    const auto expectUsage = [&](const std::string& argument, const std::string& word)
-    {
-        const Outcome outcome = runZvo(dir.path(), {"voxelize", "cube.glb", "-o", "a.ply", argument});
-        EXPECT_EQ(outcome.exit_code, 2) << outcome.err;
-        EXPECT_TRUE(contains(outcome.err, word)) << outcome.err;
-    };
-    expectUsage("--up=w", "x, y, z, -x, -y or -z");
-    expectUsage("--up=Z", "x, y, z");
-    expectUsage("--scale=0", "above 0");
-    expectUsage("--scale=-1", "above 0");
-    expectUsage("--scale=1e30x", "above 0");
+    const std::string voxelize = "voxelize cube.glb -o a.ply ";
+    expectError(voxelize + "--up=w", 2, {"x, y, z, -x, -y or -z"});
+    expectError(voxelize + "--up=Z", 2, {"x, y, z"});
+    expectError(voxelize + "--scale=0", 2, {"above 0"});
+    expectError(voxelize + "--scale=-1", 2, {"above 0"});
+    expectError(voxelize + "--scale=1e30x", 2, {"above 0"});
 }
 
 } // namespace

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "cli/cli_scene.h"
-#include "cli/run_zvo.h"
+#include "cli/cli_folder.h"
 #include "core/base/grid.h"
 #include "core/base/kernels.h"
 #include "core/scene/scene.h"
@@ -11,13 +10,9 @@
 #include "io/gltf/gltf_loader.h"
 #include "runtime/trees.h"
 #include "support/device.h"
-#include "support/temp_dir.h"
 #include "vk/headless.h"
 
-#include <gtest/gtest.h>
-
 #include <cstdint>
-#include <cstring>
 #include <string>
 #include <vector>
 
@@ -25,25 +20,12 @@ namespace zvo::test
 {
 
 /// A folder with cube.glb, and the octree that the library makes of it at a resolution of 32.
-class CliRun : public testing::Test
+class CliRun : public CliFolder
 {
 protected:
     static constexpr std::uint32_t kDepth = 5;
 
-    void SetUp() override
-    {
-        m_scene = loadGltf(m_dir.write("cube.glb", coloredCube().glb()));
-        m_grid = Grid::around(m_scene.bounds(), kDepth);
-    }
-
-    // Runs zvo and expects success.
-    Outcome run(const std::vector<std::string>& arguments)
-    {
-        const Outcome outcome = runZvo(m_dir.path(), arguments);
-        EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
-        EXPECT_EQ(outcome.err.find_first_of("\r\033"), std::string::npos) << "a progress bar on what is no terminal";
-        return outcome;
-    }
+    CliRun() : m_scene(loadGltf(m_dir.path() / "cube.glb")), m_grid(Grid::around(m_scene.bounds(), kDepth)) {}
 
     BuildResult build(const Grid& grid)
     {
@@ -52,18 +34,6 @@ protected:
 
     static vk::HeadlessDevice& device() { return sharedDevice(zvoKernels()); }
 
-    [[nodiscard]] std::string file(const std::string& name) const { return contentOf(m_dir.path() / name); }
-
-    [[nodiscard]] std::vector<std::uint64_t> mortonFile(const std::string& name) const
-    {
-        const std::string bytes = file(name);
-        std::vector<std::uint64_t> codes(bytes.size() / sizeof(std::uint64_t));
-        std::memcpy(codes.data(), bytes.data(), codes.size() * sizeof(std::uint64_t));
-        EXPECT_EQ(bytes.size() % sizeof(std::uint64_t), 0U);
-        return codes;
-    }
-
-    TempDir m_dir;
     Scene m_scene;
     Grid m_grid;
 };

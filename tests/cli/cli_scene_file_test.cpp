@@ -1,35 +1,32 @@
 // SPDX-License-Identifier: MIT
 // Scene files on the command line: pictures and voxels of a scene with a dynamic object.
-#include "cli/cli_scene.h"
-#include "cli/run_zvo.h"
-#include "io/image/image_io.h"
-#include "support/temp_dir.h"
+#include "cli/cli_folder.h"
 
 #include <cmath>
 #include <cstring>
+#include <filesystem>
+#include <functional>
 #include <gtest/gtest.h>
 #include <limits>
 #include <map>
 #include <numbers>
-#include <ostream>
 #include <set>
+#include <string>
+#include <vector>
 
 namespace zvo::test
 {
 namespace
 {
 
-namespace fs = std::filesystem;
-
 /// A folder with cube.glb, models/slab.glb and test.scene.json, in which the cube is static and the slab moves through
 /// it.
-class CliSceneFile : public testing::Test
+class CliSceneFile : public CliFolder
 {
 protected:
-    void SetUp() override
+    CliSceneFile()
     {
-        fs::create_directory(m_dir.path() / "models");
-        m_dir.write("cube.glb", coloredCube().glb());
+        std::filesystem::create_directory(m_dir.path() / "models");
         m_dir.write("models/slab.glb", slab(0.0).glb());
         m_dir.write("test.scene.json", std::string_view(R"({"seconds": 2, "frames_per_second": 4,
             "grid": {"depth": 5, "bounds": {"min": [-1.625, -1, -1], "max": [2.375, 3, 3]}},
@@ -49,35 +46,16 @@ protected:
         return builder;
     }
 
-    Outcome run(const std::vector<std::string>& arguments)
+    /// The scene file with another rule, or other objects, beside it.
+    void writeChanged(const std::string& name, const std::function<void(json&)>& change) const
     {
-        const Outcome outcome = runZvo(m_dir.path(), arguments);
-        EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
-        return outcome;
+        json scene = jsonFile("test.scene.json");
+        change(scene);
+        m_dir.write(name, scene.dump());
     }
-
-    [[nodiscard]] std::string file(const std::string& name) const { return contentOf(m_dir.path() / name); }
-
-    [[nodiscard]] std::set<std::uint64_t> codes(const std::string& name) const
-    {
-        const std::string bytes = file(name);
-        std::vector<std::uint64_t> values(bytes.size() / sizeof(std::uint64_t));
-        if (!values.empty())
-        {
-            std::memcpy(values.data(), bytes.data(), values.size() * sizeof(std::uint64_t));
-        }
-        return {values.begin(), values.end()};
-    }
-
-    TempDir m_dir;
 };
 
-std::string gridText(const json& report)
-{
-    const json& grid = report["grid"];
-    return grid["origin"][0].dump() + "," + grid["origin"][1].dump() + "," + grid["origin"][2].dump() + "," +
-           grid["voxel_size"].dump();
-}
+const std::string kScene = "test.scene.json --scenes models ";
 
 TEST_F(CliSceneFile, VoxelsAtATimeAreTheUnionOfTheObjectsInTheirPlaces)
 {
@@ -85,52 +63,46 @@ TEST_F(CliSceneFile, VoxelsAtATimeAreTheUnionOfTheObjectsInTheirPlaces)
     {
         // All vertices are on the lattice, so that a slab of its own has the same ones.
         m_dir.write("moved.glb", slab(-2.0 + 2.0 * seconds).glb());
-        const json report = json::parse(run({"voxelize", "test.scene.json", "--scenes", "models", "--time",
-                                             std::to_string(seconds), "-o", "all.morton", "-f", "--json", "-"})
-                                            .out);
+        const json report =
+            printedBy("voxelize " + kScene + "-o all.morton -f --json - --time " + std::to_string(seconds));
         EXPECT_EQ(report["resolution"], 32) << "the scene file's";
         EXPECT_EQ(report["scene"]["triangles"], 24);
         EXPECT_EQ(report["grid"]["origin"], (json{-1.625, -1.0, -1.0}));
+        const std::string grid = " --resolution 32 -f --grid " + gridText(report["grid"]);
         std::set<std::uint64_t> expected;
-        for (const char* part : {"cube.glb", "moved.glb"})
+        for (const std::string part : {"cube.glb", "moved.glb"})
         {
-            run({"voxelize", part, "--grid", gridText(report), "--resolution", "32", "-o", "part.morton", "-f"});
-            expected.merge(codes("part.morton"));
+            run("voxelize -o part.morton " + part + grid);
+            const std::vector<std::uint64_t> voxels = codes("part.morton");
+            expected.insert(voxels.begin(), voxels.end());
         }
-        EXPECT_EQ(codes("all.morton"), expected);
+        EXPECT_EQ(codes("all.morton"), std::vector(expected.begin(), expected.end()));
         EXPECT_FALSE(expected.empty());
-        run({"voxelize", "cube.glb", "moved.glb", "--grid", gridText(report), "--resolution", "32", "-o", "both.morton",
-             "-f", "--json", "both.json"});
-        EXPECT_EQ(report["octree_sha256"], json::parse(file("both.json"))["octree_sha256"]) << "attributes too";
+        const json both = printedBy("voxelize cube.glb moved.glb -o both.morton --json -" + grid);
+        EXPECT_EQ(report["octree_sha256"], both["octree_sha256"]) << "attributes too";
     }
 }
 
 TEST_F(CliSceneFile, FramesAreTimesAndBeginAnew)
 {
-    const std::vector<std::string> common = {"--scenes", "models", "--size", "64x48", "--view", "albedo"};
-    const auto render = [&](std::vector<std::string> arguments)
+    const std::string render = "render --size 64x48 --view albedo " + kScene;
+    run(render + "-o f_##.png --frames 2..10 --json updated.json");
+    run(render + "-o r_##.png --frames 2..10 --json frames.json --rebuild");
+    run(render + "-o start.png");
+    for (const std::string frame : {"02", "03", "04", "05", "06", "07", "08", "09", "10"})
     {
-        arguments.insert(arguments.begin(), {"render", "test.scene.json"});
-        arguments.insert(arguments.end(), common.begin(), common.end());
-        return run(arguments);
-    };
-    render({"-o", "f_##.png", "--frames", "2..10", "--json", "updated.json"});
-    render({"-o", "r_##.png", "--frames", "2..10", "--json", "frames.json", "--rebuild"});
-    render({"-o", "start.png"});
-    for (const char* frame : {"02.png", "03.png", "04.png", "05.png", "06.png", "07.png", "08.png", "09.png", "10.png"})
-    {
-        EXPECT_EQ(file(std::string("f_") + frame), file(std::string("r_") + frame)) << "an update equals a rebuild";
+        EXPECT_EQ(file("f_" + frame + ".png"), file("r_" + frame + ".png")) << "an update equals a rebuild";
     }
     for (const int frame : {2, 5, 7})
     {
-        render({"-o", "time.png", "-f", "--time", std::to_string(frame * 0.25)});
+        run(render + "-o time.png -f --time " + std::to_string(frame * 0.25));
         EXPECT_EQ(file("f_0" + std::to_string(frame) + ".png"), file("time.png")) << frame;
     }
     EXPECT_EQ(file("f_08.png"), file("start.png"));
     EXPECT_EQ(file("f_10.png"), file("f_02.png"));
     EXPECT_NE(file("f_03.png"), file("f_02.png"));
 
-    const json report = json::parse(file("frames.json"));
+    const json report = jsonFile("frames.json");
     EXPECT_EQ(report["schema"], "zvo.render/1");
     EXPECT_EQ(report["picture"]["count"], 9);
     ASSERT_EQ(report["frames"].size(), 9U);
@@ -145,7 +117,7 @@ TEST_F(CliSceneFile, FramesAreTimesAndBeginAnew)
         EXPECT_GT(frame["voxels"], 0);
         EXPECT_GT(frame["trace_ms"], 0);
     }
-    const json updated = json::parse(file("updated.json"));
+    const json updated = jsonFile("updated.json");
     EXPECT_EQ(updated["schema"], "zvo.render_dynamic/1");
     EXPECT_EQ(updated["grid"], report["grid"]);
     EXPECT_EQ(updated["merge"], "average");
@@ -153,7 +125,7 @@ TEST_F(CliSceneFile, FramesAreTimesAndBeginAnew)
     EXPECT_EQ(updated["scene"]["triangles_dynamic"], 12);
     EXPECT_EQ(updated["scene"]["movers"], 1);
     EXPECT_GT(updated["nodes_static"], 0);
-    run({"voxelize", "cube.glb", "--grid", gridText(report), "--resolution", "32", "-o", "cube.morton"});
+    run("voxelize cube.glb --grid " + gridText(report["grid"]) + " --resolution 32 -o cube.morton");
     EXPECT_EQ(updated["voxels_static"], codes("cube.morton").size());
     ASSERT_EQ(updated["frames"].size(), 9U);
     for (int i = 0; i < 9; ++i)
@@ -169,25 +141,17 @@ TEST_F(CliSceneFile, FramesAreTimesAndBeginAnew)
 
 TEST_F(CliSceneFile, WhatIsCompressedLooksTheSame)
 {
-    for (const std::vector<std::string>& how :
-         {std::vector<std::string>{"test.scene.json", "--scenes", "models", "--frames", "3..4"},
-          {"test.scene.json", "--scenes", "models", "--frames", "3..4", "--rebuild"},
-          {"cube.glb", "--frames", "3..4"}})
+    for (const std::string& how : {kScene, kScene + "--rebuild", std::string("cube.glb")})
     {
         for (const std::string structure : {"svo", "svdag"})
         {
-            std::vector<std::string> arguments = {
-                "render", "-o",    structure + "_#.png", "-f", "--json",      structure + ".json",
-                "--size", "64x48", "--resolution",       "64", "--structure", structure};
-            arguments.insert(arguments.end(), how.begin(), how.end());
-            run(arguments);
+            run("render --frames 3..4 -f --size 64x48 --resolution 64 -o " + structure + "_#.png --json " + structure +
+                ".json --structure " + structure + " " + how);
         }
-        for (const char* frame : {"_3.png", "_4.png"})
-        {
-            EXPECT_EQ(file(std::string("svo") + frame), file(std::string("svdag") + frame)) << how.size();
-        }
-        const json octree = json::parse(file("svo.json"));
-        const json dag = json::parse(file("svdag.json"));
+        EXPECT_EQ(file("svo_3.png"), file("svdag_3.png")) << how;
+        EXPECT_EQ(file("svo_4.png"), file("svdag_4.png")) << how;
+        const json octree = jsonFile("svo.json");
+        const json dag = jsonFile("svdag.json");
         if (dag["schema"] == "zvo.render_dynamic/1")
         {
             EXPECT_EQ(dag["structure"], "svdag");
@@ -211,15 +175,17 @@ TEST_F(CliSceneFile, TheSceneFilesRuleDecidesWhatOverlapsLookLike)
     std::map<std::string, std::string> pictures;
     for (const char* rule : {"average", "dynamic", "static"})
     {
-        json animated = json::parse(file("test.scene.json"));
-        animated["merge"] = rule;
-        animated["objects"][1]["place"]["rotation"] = {{"axis", {1, 0, 0}}, {"degrees", 90}};
-        animated["objects"][1]["motion"]["line"] = {{"from", {0, 0.75, 0.25}}, {"to", {1, 0.75, 0.25}}};
-        m_dir.write("rule.scene.json", animated.dump());
-        const Outcome outcome =
-            run({"render", "rule.scene.json", "--scenes", "models", "-o", "rule.png", "-f", "--time", "0.5", "--size",
-                 "64x48", "--view", "albedo", "--camera", "3,3,4,0.5,0.5,0.5"});
-        EXPECT_FALSE(contains(outcome.err, "warning")) << outcome.err;
+        writeChanged("rule.scene.json",
+                     [rule](json& scene)
+                     {
+                         scene["merge"] = rule;
+                         scene["objects"][1]["place"]["rotation"] = {{"axis", {1, 0, 0}}, {"degrees", 90}};
+                         scene["objects"][1]["motion"]["line"] = {{"from", {0, 0.75, 0.25}}, {"to", {1, 0.75, 0.25}}};
+                     });
+        const std::string told = run("render rule.scene.json --scenes models -o rule.png -f --time 0.5 --size 64x48 "
+                                     "--view albedo --camera 3,3,4,0.5,0.5,0.5")
+                                     .err;
+        EXPECT_FALSE(contains(told, "warning")) << told;
         pictures[rule] = file("rule.png");
     }
     EXPECT_TRUE(pictures["average"] != pictures["dynamic"]);
@@ -230,12 +196,10 @@ TEST_F(CliSceneFile, TheSceneFilesRuleDecidesWhatOverlapsLookLike)
 TEST_F(CliSceneFile, TheCameraOfTheSceneFileStandsStill)
 {
     // Finds the middle of the slab's face towards the camera, which is blue and a quarter wide.
-    const auto middleAt = [this](const char* seconds)
+    const auto middleAt = [this](const std::string& seconds)
     {
-        run({"render", "test.scene.json", "--scenes", "models", "-o", "a.png", "-f", "--size", "512x256", "--view",
-             "albedo", "--resolution", "128", "--time", seconds});
-        const std::string png = file("a.png");
-        const Image image = decodeImage({reinterpret_cast<const std::uint8_t*>(png.data()), png.size()}, "", "a.png");
+        run("render -o a.png -f --size 512x256 --view albedo --resolution 128 " + kScene + "--time " + seconds);
+        const Image image = pixels("a.png");
         double sum = 0;
         int count = 0;
         for (std::uint32_t x = 0; x < image.width; ++x)
@@ -263,33 +227,28 @@ TEST_F(CliSceneFile, TheCameraOfTheSceneFileStandsStill)
 
 TEST_F(CliSceneFile, OptionsStandBeforeTheSceneFile)
 {
-    const json report = json::parse(run({"voxelize", "test.scene.json", "--scenes", "models", "-o", "a.morton",
-                                         "--resolution", "16", "--bounds", "0,0,0,1,1,1", "--json", "-"})
-                                        .out);
+    const json report = printedBy("voxelize -o a.morton --resolution 16 --bounds 0,0,0,1,1,1 --json - " + kScene);
     EXPECT_EQ(report["resolution"], 16);
     EXPECT_EQ(report["grid"]["origin"], (json{0.0, 0.0, 0.0}));
-    run({"render", "test.scene.json", "--scenes", "models", "-o", "named.png", "--size", "32x32", "--camera", "front"});
-    run({"render", "test.scene.json", "--scenes", "models", "-o", "file.png", "--size", "32x32"});
+    run("render -o named.png --size 32x32 --camera front " + kScene);
+    run("render -o file.png --size 32x32 " + kScene);
     EXPECT_NE(file("named.png"), file("file.png"));
 }
 
 TEST_F(CliSceneFile, FramesOfWhatStandsStillTurnTheCamera)
 {
     m_dir.write("still.scene.json", std::string_view(R"({"objects": [{"file": "cube.glb"}], "grid": {"depth": 5}})"));
-    const std::vector<std::string> options = {"--frames", "0..2", "--size", "32x32", "--resolution", "32"};
-    for (const char* scene : {"still.scene.json", "cube.glb"})
+    for (const std::string scene : {"still.scene.json", "cube.glb"})
     {
-        std::vector<std::string> arguments = {"render", scene, "-o", scene + std::string("#.png")};
-        arguments.insert(arguments.end(), options.begin(), options.end());
-        run(arguments);
+        run("render --frames 0..2 --size 32x32 --resolution 32 " + scene + " -o " + scene + "#.png");
     }
-    for (const char* frame : {"0.png", "1.png", "2.png"})
+    for (const std::string frame : {"0.png", "1.png", "2.png"})
     {
-        EXPECT_EQ(file("still.scene.json" + std::string(frame)), file("cube.glb" + std::string(frame)));
+        EXPECT_EQ(file("still.scene.json" + frame), file("cube.glb" + frame));
     }
     EXPECT_NE(file("cube.glb1.png"), file("cube.glb0.png"));
-    const Outcome idle = run({"voxelize", "cube.glb", "--time", "3", "-o", "a.morton", "--resolution", "8"});
-    EXPECT_TRUE(contains(idle.err, "warning: nothing moves in this scene")) << idle.err;
+    const std::string told = run("voxelize cube.glb --time 3 -o a.morton --resolution 8").err;
+    EXPECT_TRUE(contains(told, "warning: nothing moves in this scene")) << told;
 }
 
 TEST_F(CliSceneFile, AnimationsOfAFileRunWhereTimesAreAskedFor)
@@ -301,25 +260,20 @@ TEST_F(CliSceneFile, AnimationsOfAFileRunWhereTimesAreAskedFor)
     const json channel = {{"sampler", 0}, {"target", {{"node", 0}, {"path", "translation"}}}};
     builder.add("animations", {{"samplers", json::array({sampler})}, {"channels", json::array({channel})}});
     m_dir.write("animated.glb", builder.glb());
-    const std::vector<std::string> grid = {"--grid", "0,0,0,0.125", "--resolution", "32", "-f", "-o"};
-    const auto voxelize = [&](std::vector<std::string> arguments, const char* output)
+    const auto voxelsOf = [this](const std::string& arguments)
     {
-        arguments.insert(arguments.begin(), "voxelize");
-        arguments.insert(arguments.end(), grid.begin(), grid.end());
-        arguments.emplace_back(output);
-        run(arguments);
-        return codes(output);
+        run("voxelize --grid 0,0,0,0.125 --resolution 32 -f -o a.morton " + arguments);
+        return codes("a.morton");
     };
-    const std::set<std::uint64_t> rest = voxelize({"cube.glb"}, "rest.morton");
-    EXPECT_EQ(voxelize({"animated.glb"}, "a.morton"), rest) << "at rest";
+    EXPECT_EQ(voxelsOf("animated.glb"), voxelsOf("cube.glb")) << "at rest";
     builder.document["nodes"][0]["translation"] = {2.5, 0, 0};
     m_dir.write("moved.glb", builder.glb());
-    EXPECT_EQ(voxelize({"animated.glb", "--time", "1.5"}, "a.morton"), voxelize({"moved.glb"}, "moved.morton"));
-    EXPECT_EQ(voxelize({"animated.glb", "--time", "3.5"}, "a.morton"), codes("moved.morton")) << "two seconds later";
-    run({"render", "animated.glb", "-o", "f_##.png", "--frames", "44..45", "--size", "64x48", "--resolution", "32",
-         "--camera", "front", "--bounds", "0,0,0,4,4,4"});
-    run({"render", "moved.glb", "-o", "moved.png", "--size", "64x48", "--resolution", "32", "--camera", "front",
-         "--bounds", "0,0,0,4,4,4"});
+    const std::vector<std::uint64_t> moved = voxelsOf("moved.glb");
+    EXPECT_EQ(voxelsOf("animated.glb --time 1.5"), moved);
+    EXPECT_EQ(voxelsOf("animated.glb --time 3.5"), moved) << "two seconds later";
+    const std::string render = "render --size 64x48 --resolution 32 --camera front --bounds 0,0,0,4,4,4 ";
+    run(render + "animated.glb -o f_##.png --frames 44..45");
+    run(render + "moved.glb -o moved.png");
     EXPECT_EQ(file("f_45.png"), file("moved.png"));
     EXPECT_NE(file("f_44.png"), file("moved.png"));
 }
@@ -331,58 +285,41 @@ TEST_F(CliSceneFile, TrianglesOfWhatMovesThatMakeNoSenseAreToldOfOnce)
     const float nan = std::numeric_limits<float>::quiet_NaN();
     std::memcpy(broken.bin.data() + 4, &nan, sizeof(nan)); // y of the first position
     m_dir.write("models/broken.glb", broken.glb());
-    json animated = json::parse(file("test.scene.json"));
-    animated["objects"][1]["file"] = "broken.glb";
-    m_dir.write("broken.scene.json", animated.dump());
-    animated["objects"][1] = {{"file", "cube.glb"},
-                              {"motion", {{"keys", {{"times", {0, 0.25, 0.5}}, {"scales", {1, 1, 1e30}}}}}}};
-    m_dir.write("grows.scene.json", animated.dump());
-    const auto render = [this](const char* scene)
-    {
-        return run({"render", scene, "--scenes", "models", "-o", "f_#.png", "-f", "--frames", "0..2", "--size", "32x32",
-                    "--json", "report.json"})
-            .err;
-    };
-    const auto countIn = [](const std::string& text, const std::string& part)
-    {
-        int count = 0;
-        for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1))
-        {
-            ++count;
-        }
-        return count;
-    };
+    writeChanged("broken.scene.json", [](json& scene) { scene["objects"][1]["file"] = "broken.glb"; });
+    writeChanged("grows.scene.json",
+                 [](json& scene)
+                 {
+                     const json keys = {{"times", {0, 0.25, 0.5}}, {"scales", {1, 1, 1e30}}};
+                     scene["objects"][1] = {{"file", "cube.glb"}, {"motion", {{"keys", keys}}}};
+                 });
+    const auto render = [this](const std::string& scene)
+    { return run("render --scenes models -o f_#.png -f --frames 0..2 --size 32x32 --json report.json " + scene).err; };
 
     const std::string told = render("broken.scene.json");
-    EXPECT_EQ(countIn(told, "warning"), 1) << told;
+    EXPECT_EQ(told.find("warning"), told.rfind("warning")) << told;
     EXPECT_TRUE(contains(told, "warning: at 0 s, triangles of what moves left out: 2 (nonfinite)\n")) << told;
-    json report = json::parse(file("report.json"));
+    json report = jsonFile("report.json");
     EXPECT_EQ(report["scene"]["dropped"], json::object());
     EXPECT_EQ(report["frames"][1]["dropped"]["nonfinite"], 2);
 
     const std::string later = render("grows.scene.json");
-    EXPECT_EQ(countIn(later, "warning"), 1) << later;
+    EXPECT_EQ(later.find("warning"), later.rfind("warning")) << later;
     EXPECT_TRUE(contains(later, "warning: at 0.5 s, triangles of what moves left out: 12 (out_of_range)\n")) << later;
-    report = json::parse(file("report.json"));
+    report = jsonFile("report.json");
     EXPECT_FALSE(report["frames"][1]["dropped"].contains("out_of_range"));
     EXPECT_EQ(report["frames"][2]["dropped"]["out_of_range"], 12);
 
     EXPECT_FALSE(contains(render("test.scene.json"), "warning")) << "outside, at the start, is no fault";
-    EXPECT_EQ(json::parse(file("report.json"))["frames"][0]["dropped"]["outside"], 12);
+    EXPECT_EQ(jsonFile("report.json")["frames"][0]["dropped"]["outside"], 12);
 }
 
 TEST_F(CliSceneFile, RulesThatARebuildCannotFollowAreToldOf)
 {
-    json animated = json::parse(file("test.scene.json"));
-    animated["merge"] = "dynamic";
-    m_dir.write("rule.scene.json", animated.dump());
-    for (const std::vector<std::string>& arguments : {std::vector<std::string>{"voxelize", "-o", "a.morton"},
-                                                      {"render", "-o", "a.png", "--size", "16x16", "--rebuild"}})
+    writeChanged("rule.scene.json", [](json& scene) { scene["merge"] = "dynamic"; });
+    for (const std::string how : {"voxelize -o a.morton", "render -o a.png --size 16x16 --rebuild"})
     {
-        std::vector<std::string> all = arguments;
-        all.insert(all.end(), {"rule.scene.json", "--scenes", "models"});
-        const Outcome outcome = run(all);
-        EXPECT_TRUE(contains(outcome.err, "merge, dynamic, has no effect")) << outcome.err;
+        const std::string told = run(how + " rule.scene.json --scenes models").err;
+        EXPECT_TRUE(contains(told, "merge, dynamic, has no effect")) << told;
     }
 }
 
@@ -391,45 +328,33 @@ const std::vector<WrongUse>& wrongSceneFiles()
     static const std::vector<WrongUse> uses = {
         {"ModelIsNotThere",
          3,
-         {"render", "test.scene.json", "-o", "a.png"},
+         "render test.scene.json -o a.png",
          {"test.scene.json: objects[1].file is \"slab.glb\"", "; --scenes tells where else to look"}},
         {"UnknownKey",
          3,
-         {"render", "typo.scene.json", "-o", "a.png"},
+         "render typo.scene.json -o a.png",
          {"typo.scene.json: objects[0].plaec is not known; expected name, file"}},
-        {"NotJson", 3, {"voxelize", "text.scene.json", "-o", "a.ply"}, {"text.scene.json: not JSON"}},
-        {"MissingSceneFile", 3, {"render", "absent.scene.json", "-o", "a.png"}, {"absent.scene.json", "No such file"}},
+        {"NotJson", 3, "voxelize text.scene.json -o a.ply", {"text.scene.json: not JSON"}},
+        {"MissingSceneFile", 3, "render absent.scene.json -o a.png", {"absent.scene.json", "No such file"}},
         {"FolderOfModelsIsNotThere",
          3,
-         {"render", "test.scene.json", "-o", "a.png", "--scenes", "absent"},
+         "render test.scene.json -o a.png --scenes absent",
          {"--scenes absent is not a folder"}},
         {"ModelOutside",
          3,
-         {"render", "out.scene.json", "-o", "a.png", "--scenes", "models"},
+         "render out.scene.json -o a.png --scenes models",
          {"objects[0].file is \"../../etc/passwd\", which leaves the folder of the scene file or of --scenes;"}},
-        {"TwoSceneFiles",
-         2,
-         {"render", "test.scene.json", "cube.glb", "-o", "a.png", "--scenes", "models"},
-         {"stands alone"}},
-        {"FramesAndTime",
-         2,
-         {"render", "test.scene.json", "-o", "a#.png", "--frames", "0..1", "--time", "1"},
-         {"--frames", "--time"}},
-        {"TimeBeforeTheStart",
-         2,
-         {"render", "test.scene.json", "-o", "a.png", "--time=-1"},
-         {"--time -1", "from 0 on"}},
+        {"TwoSceneFiles", 2, "render test.scene.json cube.glb -o a.png --scenes models", {"stands alone"}},
+        {"FramesAndTime", 2, "render test.scene.json -o a#.png --frames 0..1 --time 1", {"--frames", "--time"}},
+        {"TimeBeforeTheStart", 2, "render test.scene.json -o a.png --time=-1", {"--time -1", "from 0 on"}},
         {"UpOfASceneFile",
          2,
-         {"render", "test.scene.json", "-o", "a.png", "--scenes", "models", "--up", "z"},
+         "render test.scene.json -o a.png --scenes models --up z",
          {"--up and --scale do not go with test.scene.json"}},
-        {"FolderForAMesh",
-         2,
-         {"render", "cube.glb", "-o", "a.png", "--scenes", "models"},
-         {"--scenes goes with a scene"}},
+        {"FolderForAMesh", 2, "render cube.glb -o a.png --scenes models", {"--scenes goes with a scene"}},
         {"ReportIsAModel",
          2,
-         {"render", "test.scene.json", "-o", "a.png", "--scenes", "models", "--json", "models/slab.glb", "-f"},
+         "render test.scene.json -o a.png --scenes models --json models/slab.glb -f",
          {"models/slab.glb", "overwritten"}},
     };
     return uses;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Files, reports and tables of successful runs.
 #include "cli/cli_run.h"
-#include "io/image/image_io.h"
 #include "runtime/octree_sha256.h"
 
 #include <gtest/gtest.h>
@@ -15,28 +14,15 @@ namespace zvo::test
 namespace
 {
 
-const std::vector<std::string> kOctreeFields = {"schema string",
-                                                "device.name string",
-                                                "device.driver string",
-                                                "device.type string",
-                                                "device.subgroup_size number",
-                                                "grid.origin[] number",
-                                                "grid.voxel_size number",
-                                                "grid.depth number",
-                                                "snapping string",
-                                                "scene.triangles number",
-                                                "scene.dropped object",
-                                                "voxels number",
-                                                "bricks number",
-                                                "nodes number",
-                                                "bytes.geometry number",
-                                                "bytes.attributes number",
-                                                "bytes.peak_device number",
-                                                "octree_sha256 string",
-                                                "passes[].name string",
-                                                "passes[].ms number",
-                                                "voxelize_ms number",
-                                                "build_ms number"};
+const std::vector<std::string> kOctreeFields = {
+    // clang-format off
+    "schema string", "device.name string", "device.driver string", "device.type string", "device.subgroup_size number",
+    "grid.origin[] number", "grid.voxel_size number", "grid.depth number", "snapping string", "scene.triangles number",
+    "scene.dropped object", "voxels number", "bricks number", "nodes number", "bytes.geometry number",
+    "bytes.attributes number", "bytes.peak_device number", "octree_sha256 string", "passes[].name string",
+    "passes[].ms number", "voxelize_ms number", "build_ms number",
+    // clang-format on
+};
 
 float asFloat(const json& number)
 {
@@ -45,11 +31,11 @@ float asFloat(const json& number)
 
 TEST_F(CliRun, HelpAndVersionAreData)
 {
-    EXPECT_TRUE(contains(run({"--help"}).out, "render"));
-    EXPECT_TRUE(contains(run({"--version"}).out, "zvo "));
-    for (const char* command : {"render", "voxelize", "info"})
+    EXPECT_TRUE(contains(run("--help").out, "render"));
+    EXPECT_TRUE(contains(run("--version").out, "zvo "));
+    for (const std::string command : {"render", "voxelize", "info"})
     {
-        const Outcome outcome = run({command, "--help"});
+        const Outcome outcome = run(command + " --help");
         EXPECT_TRUE(contains(outcome.out, "Examples:"));
         EXPECT_EQ(outcome.err, "");
     }
@@ -57,16 +43,14 @@ TEST_F(CliRun, HelpAndVersionAreData)
 
 TEST_F(CliRun, MortonFileHoldsTheLibrarysCodes)
 {
-    run({"voxelize", "cube.glb", "-o", "cube.morton", "--resolution", "32"});
-    EXPECT_EQ(mortonFile("cube.morton"), voxelCodes(device(), build(m_grid).octree));
-    const Outcome piped = run({"voxelize", "cube.glb", "-o", "-", "--format", "morton", "--resolution", "32"});
-    EXPECT_EQ(piped.out, file("cube.morton"));
+    run("voxelize cube.glb -o cube.morton --resolution 32");
+    EXPECT_EQ(codes("cube.morton"), voxelCodes(device(), build(m_grid).octree));
+    EXPECT_EQ(run("voxelize cube.glb -o - --format morton --resolution 32").out, file("cube.morton"));
 }
 
 TEST_F(CliRun, VoxelizeReportsTheLibrarysNumbers)
 {
-    const json report =
-        json::parse(run({"voxelize", "cube.glb", "-o", "cube.ply", "--resolution", "32", "--json", "-"}).out);
+    const json report = printedBy("voxelize cube.glb -o cube.ply --resolution 32 --json -");
     expectFields(report, kOctreeFields);
     const BuildResult result = build(m_grid);
     EXPECT_EQ(report["schema"], "zvo.voxelize/1");
@@ -83,16 +67,16 @@ TEST_F(CliRun, VoxelizeReportsTheLibrarysNumbers)
 
 TEST_F(CliRun, FlagsComeInAnyOrder)
 {
-    run({"voxelize", "--coverage", "conservative", "-o", "1.morton", "--resolution=32", "cube.glb"});
-    run({"voxelize", "cube.glb", "--resolution", "32", "--coverage=conservative", "-o", "2.morton"});
-    run({"voxelize", "--resolution", "32", "cube.glb", "-o2.morton", "-f", "--coverage", "conservative"});
+    run("voxelize --coverage conservative -o 1.morton --resolution=32 cube.glb");
+    run("voxelize cube.glb --resolution 32 --coverage=conservative -o 2.morton");
+    run("voxelize --resolution 32 cube.glb -o2.morton -f --coverage conservative");
     EXPECT_EQ(file("1.morton"), file("2.morton"));
     EXPECT_NE(file("1.morton"), "");
 }
 
 TEST_F(CliRun, PlyFileHoldsCentersNormalsAndColors)
 {
-    run({"voxelize", "cube.glb", "-o", "cube.ply", "--resolution", "32"});
+    run("voxelize cube.glb -o cube.ply --resolution 32");
     const std::vector<std::uint64_t> codes = voxelCodes(device(), build(m_grid).octree);
     const std::string ply = file("cube.ply");
     const std::string end = "end_header\n";
@@ -141,8 +125,8 @@ TEST_F(CliRun, GridOfAReportGivesTheSameGridBitForBit)
     m_dir.write("moved.glb", builder.glb());
     const Grid expected = Grid::around(m_scene.bounds(), kDepth);
 
-    run({"voxelize", "moved.glb", "-o", "1.morton", "--resolution", "32", "--json", "1.json"});
-    const json grid = json::parse(file("1.json"))["grid"];
+    run("voxelize moved.glb -o 1.morton --resolution 32 --json 1.json");
+    const json grid = jsonFile("1.json")["grid"];
     for (int axis = 0; axis < 3; ++axis)
     {
         EXPECT_EQ(std::bit_cast<std::uint32_t>(asFloat(grid["origin"][axis])),
@@ -152,28 +136,24 @@ TEST_F(CliRun, GridOfAReportGivesTheSameGridBitForBit)
               std::bit_cast<std::uint32_t>(expected.voxel_size));
     EXPECT_EQ(grid["depth"], kDepth);
 
-    const std::string place = grid["origin"][0].dump() + "," + grid["origin"][1].dump() + "," +
-                              grid["origin"][2].dump() + "," + grid["voxel_size"].dump();
-    run({"voxelize", "moved.glb", "-o", "2.morton", "--resolution", "32", "--json", "2.json", "--grid", place});
-    EXPECT_EQ(json::parse(file("2.json"))["octree_sha256"], json::parse(file("1.json"))["octree_sha256"]);
+    run("voxelize moved.glb -o 2.morton --resolution 32 --json 2.json --grid " + gridText(grid));
+    EXPECT_EQ(jsonFile("2.json")["octree_sha256"], jsonFile("1.json")["octree_sha256"]);
 }
 
 TEST_F(CliRun, BoundsFixTheGrid)
 {
-    const json report = json::parse(run({"voxelize", "cube.glb", "-o", "cube.morton", "--resolution", "32", "--bounds",
-                                         "-1.5,-.25,0,.5,1,1", "--json", "-"})
-                                        .out);
+    const json report =
+        printedBy("voxelize cube.glb -o cube.morton --resolution 32 --bounds -1.5,-.25,0,.5,1,1 --json -");
     const Grid grid = Grid::withCorner({{-1.5F, -0.25F, 0.0F}, {0.5F, 1.0F, 1.0F}}, kDepth);
     EXPECT_EQ(asFloat(report["grid"]["origin"][0]), -1.5F);
     EXPECT_EQ(asFloat(report["grid"]["voxel_size"]), 2.0F / 32.0F);
-    EXPECT_EQ(mortonFile("cube.morton"), voxelCodes(device(), build(grid).octree));
+    EXPECT_EQ(codes("cube.morton"), voxelCodes(device(), build(grid).octree));
 }
 
 TEST_F(CliRun, RenderWritesAPictureAndItsNumbers)
 {
-    run({"render", "cube.glb", "-o", "front.png", "--resolution", "32", "--size", "96x64", "--view", "albedo", "--json",
-         "front.json"});
-    const json report = json::parse(file("front.json"));
+    run("render cube.glb -o front.png --resolution 32 --size 96x64 --view albedo --json front.json");
+    const json report = jsonFile("front.json");
     expectFields(report, kOctreeFields);
     expectFields(report, {"trace_ms number", "capped_rays number"});
     EXPECT_EQ(report["schema"], "zvo.render/1");
@@ -181,8 +161,7 @@ TEST_F(CliRun, RenderWritesAPictureAndItsNumbers)
     EXPECT_EQ(report["octree_sha256"], octreeSha256(device(), build(m_grid).octree));
     EXPECT_GT(report["trace_ms"], 0.0);
 
-    const std::string png = file("front.png");
-    const Image image = decodeImage({reinterpret_cast<const std::uint8_t*>(png.data()), png.size()}, "", "front.png");
+    const Image image = pixels("front.png");
     ASSERT_EQ(image.width, 96U);
     ASSERT_EQ(image.height, 64U);
     const std::uint8_t* const center = image.rgba.data() + std::size_t{4} * (32 * 96 + 48);
@@ -190,21 +169,16 @@ TEST_F(CliRun, RenderWritesAPictureAndItsNumbers)
     EXPECT_EQ(center[1], 0);
     EXPECT_EQ(center[2], 255);
 
-    const std::vector<std::string> same = {"render", "cube.glb", "-o",     "-",      "--resolution", "32",
-                                           "--size", "96x64",    "--view", "albedo", "--camera",     "front"};
-    EXPECT_EQ(run(same).out, png);
-    const std::vector<std::string> by_numbers = {
-        "render", "cube.glb", "-o",    "-",        "--resolution",
-        "32",     "--size",   "96x64", "--camera", "0.5,.5,4,0.5,0.5,-1e1,45.83662"};
-    EXPECT_TRUE(run(by_numbers).out.starts_with("\x89PNG"));
+    const std::string to_stdout = "render cube.glb -o - --resolution 32 --size 96x64 ";
+    EXPECT_EQ(run(to_stdout + "--view albedo --camera front").out, file("front.png"));
+    EXPECT_TRUE(run(to_stdout + "--camera 0.5,.5,4,0.5,0.5,-1e1,45.83662").out.starts_with("\x89PNG"));
 }
 
 TEST_F(CliRun, FramesTurnOnceAround)
 {
-    run({"render", "cube.glb", "-o", "f_##.png", "--frames", "0..3", "--resolution", "32", "--size", "64x64", "--view",
-         "normal", "--attributes", "none"});
-    run({"render", "cube.glb", "-o", "one.png", "--resolution", "32", "--size", "64x64", "--view", "normal",
-         "--attributes", "none"});
+    const std::string render = "render cube.glb --resolution 32 --size 64x64 --view normal --attributes none ";
+    run(render + "-o f_##.png --frames 0..3");
+    run(render + "-o one.png");
     EXPECT_EQ(file("f_00.png"), file("one.png"));
     EXPECT_NE(file("f_01.png"), file("f_00.png"));
     EXPECT_EQ(filesIn(m_dir.path()),
@@ -213,7 +187,7 @@ TEST_F(CliRun, FramesTurnOnceAround)
 
 TEST_F(CliRun, InfoListsDevices)
 {
-    const json info = json::parse(run({"info", "--json"}).out);
+    const json info = printedBy("info --json");
     EXPECT_EQ(info["schema"], "zvo.info/1");
     expectFields(info,
                  {"devices[].index number", "devices[].name string", "devices[].type string", "devices[].driver string",
@@ -221,8 +195,8 @@ TEST_F(CliRun, InfoListsDevices)
     EXPECT_TRUE(info["devices"][0]["missing"].is_array());
     EXPECT_TRUE(info["devices"][0]["reasons"].is_array());
     const std::string type = info["devices"][0]["type"];
-    EXPECT_TRUE(type != "cpu" || contains(run({"info", "--device", "cpu"}).out, "<- would be used"));
-    const Outcome none = runZvo(m_dir.path(), {"info", "--device", "voodoo"});
+    EXPECT_TRUE(type != "cpu" || contains(run("info --device cpu").out, "<- would be used"));
+    const Outcome none = runZvo(m_dir.path(), "info --device voodoo");
     EXPECT_EQ(none.exit_code, 5);
     EXPECT_TRUE(contains(none.out, info["devices"][0]["name"].get<std::string>()));
 }
@@ -230,7 +204,7 @@ TEST_F(CliRun, InfoListsDevices)
 TEST_F(CliRun, PipelinesAreKeptInTheCacheFolder)
 {
     const TempDir cache;
-    const Outcome outcome = runZvo(m_dir.path(), {"voxelize", "cube.glb", "-o", "cube.ply", "--resolution", "8"},
+    const Outcome outcome = runZvo(m_dir.path(), "voxelize cube.glb -o cube.ply --resolution 8",
                                    {"XDG_CACHE_HOME=" + cache.path().string()});
     EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
     EXPECT_EQ(filesIn(cache.path() / "zvo"), std::vector<std::string>{"pipelines.bin"});

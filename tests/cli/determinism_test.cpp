@@ -9,7 +9,9 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include <initializer_list>
 #include <set>
+#include <string>
 
 namespace zvo::test
 {
@@ -32,6 +34,15 @@ std::vector<Machine> machines()
         all.push_back({4, 512});
     }
     return all;
+}
+
+Outcome runOn(const Machine& machine, const TempDir& dir, const CommandLine& arguments)
+{
+    const Outcome outcome = runZvo(dir.path(), arguments,
+                                   {"LP_NUM_THREADS=" + std::to_string(machine.threads),
+                                    "LP_NATIVE_VECTOR_WIDTH=" + std::to_string(machine.vector_bits)});
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    return outcome;
 }
 
 struct DeterminismCase
@@ -72,23 +83,17 @@ TEST_P(OctreeBytes, DoNotDependOnThreadsAndSubgroups)
     {
         GTEST_SKIP() << scene.scene << " is not there";
     }
-    std::vector<std::string> arguments = {
-        "voxelize",     path->string(),   "-o",         "x.morton",        "-f", "--json", "-",
-        "--resolution", scene.resolution, "--coverage", optionOf(coverage)};
-    if (scene.grid != nullptr)
-    {
-        arguments.push_back(std::string("--grid=") + scene.grid);
-    }
+    CommandLine arguments = std::string("voxelize -o x.morton -f --json - --resolution ") + scene.resolution +
+                            " --coverage " + optionOf(coverage) +
+                            (scene.grid != nullptr ? std::string(" --grid=") + scene.grid : "");
+    arguments.push_back(path->string());
     const TempDir dir;
     std::set<std::string> sums;
     std::set<int> vector_bits;
     std::set<int> subgroup_sizes;
     for (const Machine& machine : machines())
     {
-        const Outcome outcome = runZvo(dir.path(), arguments,
-                                       {"LP_NUM_THREADS=" + std::to_string(machine.threads),
-                                        "LP_NATIVE_VECTOR_WIDTH=" + std::to_string(machine.vector_bits)});
-        ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+        const Outcome outcome = runOn(machine, dir, arguments);
         const nlohmann::json report = nlohmann::json::parse(outcome.out);
         sums.insert(report.at("octree_sha256").get<std::string>());
         vector_bits.insert(machine.vector_bits);
@@ -102,50 +107,37 @@ TEST_P(OctreeBytes, DoNotDependOnThreadsAndSubgroups)
     EXPECT_EQ(subgroup_sizes.size(), vector_bits.size());
 }
 
-// With light of voxels, sky and sun, in a scene that is open to one side, and in both forms. The channels of --aov are
-// in the file, and the picture is denoised.
-TEST(PathBytes, DoNotDependOnThreadsSubgroupsAndForm)
+// The different pictures of a scene that is open to one side, by each machine and with each of options.
+std::size_t countPictures(const std::string& arguments, std::initializer_list<const char*> options)
 {
     const TempDir dir;
     std::set<std::string> pictures;
     for (const Machine& machine : machines())
     {
-        for (const char* form : {"stages", "kernel"})
+        for (const char* option : options)
         {
-            const Outcome outcome = runZvo(dir.path(),
-                                           {"render", ownScene("cornell_box.glb").string(), "-o", "x.exr", "-f",
-                                            "--resolution", "64", "--size", "51x40", "--integrator", "path", "--spp",
-                                            "3", "--path-form", form, "--denoise", "--aov"},
-                                           {"LP_NUM_THREADS=" + std::to_string(machine.threads),
-                                            "LP_NATIVE_VECTOR_WIDTH=" + std::to_string(machine.vector_bits)});
-            ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+            CommandLine command = "render -o x.exr -f --resolution 64 --size 51x40 " + arguments + option;
+            command.push_back(ownScene("cornell_box.glb").string());
+            runOn(machine, dir, command);
             pictures.insert(contentOf(dir.path() / "x.exr"));
         }
     }
-    EXPECT_EQ(pictures.size(), 1U);
+    return pictures.size();
+}
+
+// With light of voxels, sky and sun, and in both forms. The channels of --aov are in the file, and the picture is
+// denoised.
+TEST(PathBytes, DoNotDependOnThreadsSubgroupsAndForm)
+{
+    EXPECT_EQ(countPictures("--integrator path --spp 3 --denoise --aov --path-form ", {"stages", "kernel"}), 1U);
 }
 
 // More faces are wanted than a frame takes.
 TEST(CachedBytes, DoNotDependOnThreadsSubgroupsAndLoads)
 {
-    const TempDir dir;
-    std::set<std::string> pictures;
-    for (const Machine& machine : machines())
-    {
-        for (const char* loads : {"addresses", "descriptors"})
-        {
-            const Outcome outcome =
-                runZvo(dir.path(),
-                       {"render", ownScene("cornell_box.glb").string(), "-o", "x.exr", "-f", "--resolution", "64",
-                        "--size", "51x40", "--integrator", "cached", "--settle", "10", "--spp", "3", "--rays", "300",
-                        "--tuning", std::string("loads=") + loads},
-                       {"LP_NUM_THREADS=" + std::to_string(machine.threads),
-                        "LP_NATIVE_VECTOR_WIDTH=" + std::to_string(machine.vector_bits)});
-            ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
-            pictures.insert(contentOf(dir.path() / "x.exr"));
-        }
-    }
-    EXPECT_EQ(pictures.size(), 1U);
+    EXPECT_EQ(countPictures("--integrator cached --settle 10 --spp 3 --rays 300 --tuning loads=",
+                            {"addresses", "descriptors"}),
+              1U);
 }
 
 } // namespace

@@ -13,6 +13,7 @@
 #include <fstream>
 #include <iterator>
 #include <spawn.h>
+#include <sstream>
 #include <stdexcept>
 #include <sys/wait.h>
 #include <system_error>
@@ -90,9 +91,15 @@ std::filesystem::path newFile()
 
 } // namespace
 
-ZvoProcess::ZvoProcess(const std::filesystem::path& folder, std::vector<std::string> arguments,
+void CommandLine::split(std::string_view text)
+{
+    std::istringstream words{std::string(text)};
+    assign(std::istream_iterator<std::string>(words), {});
+}
+
+ZvoProcess::ZvoProcess(const std::filesystem::path& folder, const CommandLine& arguments,
                        const std::vector<std::string>& environment)
-    : ZvoProcess(placeOf(ZVO_PROGRAM, "bin/zvo"), folder, zvoCommand(std::move(arguments)), environment)
+    : ZvoProcess(placeOf(ZVO_PROGRAM, "bin/zvo"), folder, zvoCommand(arguments), environment)
 {
 }
 
@@ -150,11 +157,11 @@ std::vector<std::string> zvoCommand(std::vector<std::string> arguments)
     return runs ? onTestDevice(std::move(arguments)) : arguments;
 }
 
-std::vector<std::string> onTestDevice(std::vector<std::string> arguments)
+std::vector<std::string> onTestDevice(std::vector<std::string> arguments, const std::string& device)
 {
     if (std::find(arguments.begin(), arguments.end(), "--device") == arguments.end())
     {
-        arguments.insert(arguments.end(), {"--device", deviceOptions().device});
+        arguments.insert(arguments.end(), {"--device", device.empty() ? deviceOptions().device : device});
     }
     if (deviceOptions().validation)
     {

@@ -2,14 +2,30 @@
 // Runs the program, as a shell would or in this process.
 #pragma once
 
+#include <concepts>
 #include <filesystem>
+#include <initializer_list>
 #include <ostream>
 #include <string>
+#include <string_view>
 #include <sys/types.h>
+#include <utility>
 #include <vector>
 
 namespace zvo::test
 {
+
+/// The words of a command line: a text that is split at its blanks or, where words have blanks, a list.
+class CommandLine : public std::vector<std::string>
+{
+public:
+    CommandLine(std::initializer_list<std::string> words) : vector(words) {}
+    CommandLine(std::vector<std::string> words) : vector(std::move(words)) {}
+    CommandLine(const std::convertible_to<std::string_view> auto& text) { split(text); }
+
+private:
+    void split(std::string_view text);
+};
 
 /// What a finished run of zvo left behind.
 struct Outcome
@@ -25,10 +41,10 @@ class ZvoProcess
 public:
     /// Starts zvo with arguments in folder, its output going to files elsewhere. environment: "NAME=value" beside this
     /// process's own variables. On the software device; with validation where the tests' devices have it.
-    ZvoProcess(const std::filesystem::path& folder, std::vector<std::string> arguments,
+    ZvoProcess(const std::filesystem::path& folder, const CommandLine& arguments,
                const std::vector<std::string>& environment = {});
 
-    /// The same of any program; command: its name as it sees it, then its arguments, nothing added.
+    /// Starts any program. command: its name as it sees it, then its arguments, nothing added.
     ZvoProcess(const std::filesystem::path& program, const std::filesystem::path& folder,
                std::vector<std::string> command, const std::vector<std::string>& environment);
     ~ZvoProcess();
@@ -44,8 +60,9 @@ private:
     pid_t m_pid = -1;
 };
 
-/// The arguments of a run that uses a device, with that of the tests; with validation where the tests' devices have it.
-std::vector<std::string> onTestDevice(std::vector<std::string> arguments);
+/// The arguments of a run that uses a device: the one that they name, or else this one, or that of the tests. With
+/// validation where the tests' devices have it.
+std::vector<std::string> onTestDevice(std::vector<std::string> arguments, const std::string& device = "");
 
 /// The command line of zvo: its name, arguments and, where a scene is rendered or voxelized, the tests' device.
 std::vector<std::string> zvoCommand(std::vector<std::string> arguments);
@@ -53,7 +70,7 @@ std::vector<std::string> zvoCommand(std::vector<std::string> arguments);
 /// Runs zvo to its end in folder. With an environment, "NAME=value" beside this process's own variables, in a process
 /// of its own; otherwise here, on a device that these runs share: then this process has the folder, the standard
 /// streams and the signal handlers of zvo meanwhile, and two runs cannot overlap.
-Outcome runZvo(const std::filesystem::path& folder, const std::vector<std::string>& arguments,
+Outcome runZvo(const std::filesystem::path& folder, const CommandLine& arguments,
                const std::vector<std::string>& environment = {});
 
 /// A command line that a program refuses.
@@ -61,7 +78,7 @@ struct WrongUse
 {
     const char* name;
     int exit_code;
-    std::vector<std::string> arguments;
+    CommandLine arguments;
     std::vector<std::string> words;            // in the message
     std::vector<std::string> environment = {}; // as of ZvoProcess
 };

@@ -77,7 +77,7 @@ private:
 
 } // namespace
 
-Outcome runZvo(const std::filesystem::path& folder, const std::vector<std::string>& arguments,
+Outcome runZvo(const std::filesystem::path& folder, const CommandLine& arguments,
                const std::vector<std::string>& environment)
 {
     if (!environment.empty())

@@ -2,13 +2,10 @@
 // The demo window under an X server of its own, played by a script.
 #pragma once
 
-#include "cli/cli_scene.h"
-#include "cli/run_zvo.h"
+#include "cli/cli_folder.h"
 #include "demo/input/input_script.h"
 #include "demo/xvfb.h"
-#include "io/image/image_io.h"
 #include "support/device.h"
-#include "support/temp_dir.h"
 
 #include <gtest/gtest.h>
 
@@ -31,31 +28,32 @@ using demo::MouseButtonEvent;
 using demo::MouseMoveEvent;
 using demo::ScriptedEvent;
 
-inline const std::vector<std::string> kCamera = {"--camera", "3,2.5,4,0.5,0.5,0.5,40"};
-inline const std::vector<std::string> kSize = {"--size", "240x150"};
+inline constexpr Modifiers kShift = {true, false, false};
+inline constexpr Modifiers kControl = {false, true, false};
 
-inline std::vector<std::string> operator+(std::vector<std::string> a, const std::vector<std::string>& b)
-{
-    a.insert(a.end(), b.begin(), b.end());
-    return a;
-}
+// Options of the window and of zvo render.
+inline const std::string kCamera = " --camera 3,2.5,4,0.5,0.5,0.5,40";
+inline const std::string kSize = " --size 240x150";
+inline const std::string kCube = "cube.glb --resolution 64";
 
-/// What a key does, pressed before a frame and let go before the next one.
-inline std::vector<ScriptedEvent> keyStroke(std::uint64_t frame, Key key, Modifiers modifiers = {})
-{
-    return {{frame, KeyEvent{key, true, modifiers}}, {frame + 1, KeyEvent{key, false, modifiers}}};
-}
+// Frames one after the other, each at its own time, without panels.
+inline const std::string kSteady = " --fixed-step 1/10 --hide-ui";
 
 /// A script in the order of its frames.
 class Script
 {
 public:
-    Script& add(std::vector<ScriptedEvent> events)
+    Script& add(std::uint64_t frame, demo::InputEvent event)
     {
-        m_events.insert(m_events.end(), events.begin(), events.end());
+        m_events.push_back({frame, std::move(event)});
         return *this;
     }
-    Script& add(std::uint64_t frame, demo::InputEvent event) { return add({{frame, std::move(event)}}); }
+
+    /// Presses a key before a frame, and lets it go before the next one.
+    Script& press(std::uint64_t frame, Key key, Modifiers modifiers = {})
+    {
+        return add(frame, KeyEvent{key, true, modifiers}).add(frame + 1, KeyEvent{key, false, modifiers});
+    }
 
     [[nodiscard]] std::string text() const
     {
@@ -69,7 +67,7 @@ private:
 };
 
 /// A folder with cube.glb, slab.glb, broken.glb and moving.scene.json, and a display to show them on.
-class DemoWindow : public testing::Test
+class DemoWindow : public CliFolder
 {
 protected:
     void SetUp() override
@@ -78,7 +76,6 @@ protected:
         {
             GTEST_SKIP() << "no Xvfb: install the package xvfb";
         }
-        m_dir.write("cube.glb", coloredCube().glb());
         GltfBuilder slab = coloredCube();
         slab.document["nodes"][0]["scale"] = {0.25, 0.5, 1.5};
         m_dir.write("slab.glb", slab.glb());
@@ -90,55 +87,49 @@ protected:
                         {"file": "slab.glb", "motion": {"line": {"from": [-2, 0, 0], "to": [2, 0, 0]}}}]})"));
     }
 
-    Outcome runDemo(std::vector<std::string> arguments)
+    Outcome runDemo(const CommandLine& arguments) const
     {
-        arguments.insert(arguments.begin(), "zvo-demo");
-        if (std::ranges::find(arguments, "--device") == arguments.end())
-        {
-            arguments.insert(arguments.end(), {"--device", "cpu"});
-        }
-        if (deviceOptions().validation)
-        {
-            arguments.emplace_back("--validation");
-        }
-        return ZvoProcess(ZVO_DEMO_PROGRAM, m_dir.path(), arguments,
+        std::vector<std::string> command = onTestDevice(arguments, "cpu");
+        command.insert(command.begin(), "zvo-demo");
+        return ZvoProcess(ZVO_DEMO_PROGRAM, m_dir.path(), command,
                           {"DISPLAY=" + m_server.display(),
                            "WAYLAND_DISPLAY=", "XDG_CONFIG_HOME=" + (m_dir.path() / "config").string()})
             .wait();
     }
 
     /// Runs it to its end, which is good and silent.
-    void show(const std::vector<std::string>& arguments)
+    void show(const std::string& arguments) const
     {
         const Outcome outcome = runDemo(arguments);
         ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
         EXPECT_EQ(outcome.err, "");
     }
 
-    std::string render(const std::vector<std::string>& arguments)
+    /// The last picture of so many steady frames.
+    [[nodiscard]] std::string shown(const std::string& arguments, int frames = 1) const
     {
-        const Outcome outcome = runZvo(m_dir.path(), std::vector<std::string>{"render"} + arguments +
-                                                         std::vector<std::string>{"-o", "rendered.png", "-f"});
-        EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+        show(arguments + kSteady + " --screenshot shown.png -f --frames " + std::to_string(frames));
+        return file("shown.png");
+    }
+
+    [[nodiscard]] std::string render(const std::string& arguments) const
+    {
+        run("render -o rendered.png -f " + arguments);
         return file("rendered.png");
     }
 
-    [[nodiscard]] std::string file(const std::string& name) const { return contentOf(m_dir.path() / name); }
-    [[nodiscard]] bool has(const std::string& name) const { return fs::exists(m_dir.path() / name); }
-
-    /// Pixels of a picture, with its size in front.
-    [[nodiscard]] Image picture(const std::string& name) const
+    /// Writes a script, and returns the option that plays it.
+    [[nodiscard]] std::string playing(const Script& script) const
     {
-        const std::string png = file(name);
-        return decodeImage({reinterpret_cast<const std::uint8_t*>(png.data()), png.size()}, name, name);
+        m_dir.write("script.json", script.text());
+        return " --input-script script.json";
     }
 
-    Xvfb m_server;
-    TempDir m_dir;
-};
+    /// A screenshot that a key has asked for.
+    [[nodiscard]] static std::string shotName(int number) { return "zvo-000" + std::to_string(number) + ".png"; }
+    [[nodiscard]] std::string shot(int number) const { return file(shotName(number)); }
 
-// Frames one after the other, each at its own time, without panels.
-inline const std::vector<std::string> kSteady = {"--fixed-step", "1/10", "--hide-ui"};
-inline const std::vector<std::string> kCube = {"cube.glb", "--resolution", "64"};
+    Xvfb m_server;
+};
 
 } // namespace zvo::test

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The demo window, run under its own X server. It shows what `zvo render` shows, whatever happens to the window, and
 // the validation layers report nothing.
-#include "common/view.h"
+#include "common/names.h"
 #include "demo/demo_window.h"
 
 #include <algorithm>
@@ -17,97 +17,65 @@ namespace
 
 TEST_F(DemoWindow, EveryViewIsThePictureOfZvoRender)
 {
-    for (const cli::NamedView& view : cli::allViews())
+    for (const cli::Named<View>& view : cli::kViews)
     {
         SCOPED_TRACE(view.name);
-        const std::vector<std::string> common =
-            kCube + kCamera + kSize + std::vector<std::string>{"--view", std::string(view.name)};
-        show(common + kSteady + std::vector<std::string>{"--frames", "2", "--screenshot", "shown.png", "-f"});
-        EXPECT_EQ(file("shown.png"), render(common));
+        const std::string common = kCube + kCamera + kSize + " --view " + std::string(view.name);
+        EXPECT_EQ(shown(common, 2), render(common));
     }
 }
 
 TEST_F(DemoWindow, OtherPicturesAreThoseOfZvoRenderToo)
 {
-    const std::vector<std::vector<std::string>> kOptions = {
-        {"--structure", "svdag", "--occlusion", "4"},
-        {"--exposure", "0.5", "--sun", "1,1,0.2", "--detail", "3"},
-        {"--attributes", "none", "--coverage", "conservative"},
-        {}, // with the scene's camera
-    };
-    for (const std::vector<std::string>& options : kOptions)
+    for (const std::string options : {
+             " --structure svdag --occlusion 4",
+             " --exposure 0.5 --sun 1,1,0.2 --detail 3",
+             " --attributes none --coverage conservative",
+         })
     {
-        SCOPED_TRACE(testing::PrintToString(options));
-        const std::vector<std::string> common = kCube + kSize + (options.empty() ? options : kCamera + options);
-        show(common + kSteady + std::vector<std::string>{"--frames", "1", "--screenshot", "shown.png", "-f"});
-        EXPECT_EQ(file("shown.png"), render(common));
+        const std::string common = kCube + kSize + kCamera + options;
+        EXPECT_EQ(shown(common), render(common)) << options;
     }
-    ASSERT_EQ(runZvo(m_dir.path(), {"build", "cube.glb", "-o", "cube.zvo", "--resolution", "64", "--attributes",
-                                    "block", "--device", "cpu"})
-                  .exit_code,
-              0);
-    const std::vector<std::string> tree = std::vector<std::string>{"cube.zvo"} + kSize;
-    show(tree + kSteady + std::vector<std::string>{"--frames", "1", "--screenshot", "shown.png", "-f"});
-    EXPECT_EQ(file("shown.png"), render(tree));
-    for (const auto& [from, to] : {std::pair("cube.zvo", "cube.vox"), {"cube.vox", "other.zvo"}})
-    {
-        ASSERT_EQ(runZvo(m_dir.path(), {"convert", from, "-o", to, "--device", "cpu"}).exit_code, 0);
-    }
-    show(std::vector<std::string>{"cube.vox"} + kSize + kSteady +
-         std::vector<std::string>{"--frames", "1", "--screenshot", "shown.png", "-f"});
-    EXPECT_EQ(file("shown.png"), render(std::vector<std::string>{"other.zvo"} + kSize));
+    EXPECT_EQ(shown(kCube + kSize), render(kCube + kSize)) << "with the scene's camera";
+    run("build cube.glb -o cube.zvo --resolution 64 --attributes block --device cpu");
+    EXPECT_EQ(shown("cube.zvo" + kSize), render("cube.zvo" + kSize));
+    run("convert cube.zvo -o cube.vox --device cpu");
+    run("convert cube.vox -o other.zvo --device cpu");
+    EXPECT_EQ(shown("cube.vox" + kSize), render("other.zvo" + kSize));
 }
 
 // While nothing changes, each frame adds a sample; what moves begins anew.
 TEST_F(DemoWindow, PathsAddUpWhileNothingChanges)
 {
-    const std::vector<std::string> common = kCube + kCamera + kSize + std::vector<std::string>{"--integrator", "path"};
-    std::set<std::string> pictures;
-    for (const char* samples : {"1", "4"})
-    {
-        show(common + kSteady + std::vector<std::string>{"--frames", samples, "--screenshot", "shown.png", "-f"});
-        EXPECT_EQ(file("shown.png"), render(common + std::vector<std::string>{"--spp", samples}));
-        pictures.insert(file("shown.png"));
-    }
-    EXPECT_EQ(pictures.size(), 2U);
-    const std::vector<std::string> denoised = common + std::vector<std::string>{"--denoise"};
-    show(denoised + kSteady + std::vector<std::string>{"--frames", "2", "--screenshot", "shown.png", "-f"});
-    EXPECT_EQ(file("shown.png"), render(denoised + std::vector<std::string>{"--spp", "2"}));
-    const std::vector<std::string> moving =
-        std::vector<std::string>{"moving.scene.json", "--integrator", "path"} + kCamera + kSize;
-    show(moving + kSteady +
-         std::vector<std::string>{"--frames", "3", "--screenshot", "shown.png", "--json", "stats.json", "-f"});
-    EXPECT_GT(json::parse(file("stats.json"))["mrays_per_second"], 0);
-    ASSERT_EQ(
-        runZvo(m_dir.path(), std::vector<std::string>{"render"} + moving +
-                                 std::vector<std::string>{"-o", "frame_#.png", "--frames", "2..2", "--spp", "1", "-f"})
-            .exit_code,
-        0);
-    EXPECT_EQ(file("shown.png"), file("frame_2.png"));
+    const std::string common = kCube + kCamera + kSize + " --integrator path";
+    const std::string one = shown(common, 1);
+    const std::string four = shown(common, 4);
+    EXPECT_EQ(one, render(common + " --spp 1"));
+    EXPECT_EQ(four, render(common + " --spp 4"));
+    EXPECT_NE(one, four);
+    EXPECT_EQ(shown(common + " --denoise", 2), render(common + " --denoise --spp 2"));
+    const std::string moving = "moving.scene.json --integrator path" + kCamera + kSize;
+    const std::string third = shown(moving + " --json stats.json", 3);
+    EXPECT_GT(jsonFile("stats.json")["mrays_per_second"], 0);
+    run("render -o frame_#.png --frames 2..2 --spp 1 -f " + moving);
+    EXPECT_EQ(third, file("frame_2.png"));
 }
 
 // The command line's later frames look through other points of pixels.
 TEST_F(DemoWindow, KeptLightBeginsAsOnTheCommandLineAndGoesOn)
 {
-    const std::vector<std::string> common =
-        kCube + kCamera + kSize + std::vector<std::string>{"--integrator", "cached"};
-    const std::string first = render(common + std::vector<std::string>{"--settle", "0", "--spp", "1"});
-    for (const std::uint32_t frames : {1U, 5U})
-    {
-        show(common + kSteady +
-             std::vector<std::string>{"--frames", std::to_string(frames), "--screenshot", "shown.png", "-f"});
-        EXPECT_TRUE((file("shown.png") == first) == (frames == 1)) << frames;
-    }
+    const std::string common = kCube + kCamera + kSize + " --integrator cached";
+    const std::string first = render(common + " --settle 0 --spp 1");
+    EXPECT_TRUE(shown(common, 1) == first);
+    EXPECT_FALSE(shown(common, 5) == first);
 }
 
 TEST_F(DemoWindow, ALowerResolutionShowsPixelsOfItsPicture)
 {
-    show(kCube + kCamera + kSteady +
-         std::vector<std::string>{"--size", "240x150", "--internal-scale", "0.5", "--frames", "1", "--screenshot",
-                                  "shown.png"});
-    const Image shown = picture("shown.png");
-    render(kCube + kCamera + std::vector<std::string>{"--size", "120x75"});
-    const Image traced = picture("rendered.png");
+    show(kCube + kCamera + kSteady + kSize + " --internal-scale 0.5 --frames 1 --screenshot shown.png");
+    const Image shown = pixels("shown.png");
+    run("render -o rendered.png --size 120x75 " + kCube + kCamera);
+    const Image traced = pixels("rendered.png");
     ASSERT_EQ(shown.width, 240U);
     ASSERT_EQ(shown.height, 150U);
     for (std::uint32_t y = 0; y < 150; ++y)
@@ -128,22 +96,16 @@ TEST_F(DemoWindow, FliesAlongAPathAndThroughTheTimesOfAMovingSceneAsZvoRenderDoe
         {"time": 0, "eye": [3, 2, 6], "target": [0.5, 0.5, 0.5]},
         {"time": 0.5, "eye": [0, 3, 7], "target": [0.5, 1, 0.5], "fov": 60},
         {"time": 1.5, "eye": [-4, 1, 5], "target": [0.5, 0.5, 0.5]}]})"));
-    for (const char* structure : {"svo", "svdag"})
+    for (const std::string structure : {"svo", "svdag"})
     {
-        const std::vector<std::string> common =
-            std::vector<std::string>{"moving.scene.json", "--camera-path", "path.json", "--structure", structure} +
-            kSize;
-        ASSERT_EQ(runZvo(m_dir.path(), std::vector<std::string>{"render"} + common +
-                                           std::vector<std::string>{"-o", "frame_##.png", "--frames", "0..9", "-f"})
-                      .exit_code,
-                  0);
+        const std::string common = "moving.scene.json --camera-path path.json --structure " + structure + kSize;
+        run("render -o frame_##.png --frames 0..9 -f " + common);
         std::set<std::string> pictures;
         for (const int frame : {0, 3, 9})
         {
-            show(common + kSteady +
-                 std::vector<std::string>{"--frames", std::to_string(frame + 1), "--screenshot", "shown.png", "-f"});
-            EXPECT_EQ(file("shown.png"), file("frame_0" + std::to_string(frame) + ".png")) << frame;
-            pictures.insert(file("shown.png"));
+            const std::string picture = shown(common, frame + 1);
+            EXPECT_EQ(picture, file("frame_0" + std::to_string(frame) + ".png")) << frame;
+            pictures.insert(picture);
         }
         EXPECT_EQ(pictures.size(), 3U);
     }
@@ -152,35 +114,30 @@ TEST_F(DemoWindow, FliesAlongAPathAndThroughTheTimesOfAMovingSceneAsZvoRenderDoe
 TEST_F(DemoWindow, AUserFliesResizesMinimizesAndComesBackToTheSamePicture)
 {
     Script script;
-    const Modifiers control = {false, true, false};
-    script.add(keyStroke(1, Key::Digit1, control)).add(keyStroke(1, Key::F12)); // a bookmark, and zvo-0001.png
+    script.press(1, Key::Digit1, kControl).press(1, Key::F12); // a bookmark, and zvo-0001.png
     script.add(2, MouseMoveEvent{100, 70}).add(2, MouseButtonEvent{MouseButton::Right, true, {}});
-    script.add(keyStroke(3, Key::W)).add(3, MouseMoveEvent{130, 60}).add(3, demo::WheelEvent{0, 1});
-    script.add(5, MouseButtonEvent{MouseButton::Right, false, {}}).add(keyStroke(5, Key::D, {true, false, false}));
-    script.add(keyStroke(7, Key::F12)); // zvo-0002.png, from another position
-    script.add(8, demo::ResizeEvent{333, 201}).add(keyStroke(9, Key::F12));
-    script.add(10, demo::ResizeEvent{0, 0}).add(keyStroke(11, Key::V)).add(keyStroke(13, Key::V, {true, false, false}));
+    script.press(3, Key::W).add(3, MouseMoveEvent{130, 60}).add(3, demo::WheelEvent{0, 1});
+    script.add(5, MouseButtonEvent{MouseButton::Right, false, {}}).press(5, Key::D, kShift);
+    script.press(7, Key::F12); // zvo-0002.png, from another position
+    script.add(8, demo::ResizeEvent{333, 201}).press(9, Key::F12);
+    script.add(10, demo::ResizeEvent{0, 0}).press(11, Key::V).press(13, Key::V, kShift);
     script.add(16, demo::ResizeEvent{64, 480}).add(18, demo::MinimizeEvent{true}).add(20, demo::MinimizeEvent{false});
     script.add(22, demo::ResizeEvent{240, 150});
-    script.add(keyStroke(23, Key::Digit1)).add(keyStroke(25, Key::F12)); // zvo-0004.png
-    script.add(keyStroke(27, Key::F)).add(keyStroke(28, Key::C, control)).add(keyStroke(29, Key::V, control));
-    script.add(keyStroke(30, Key::F12))
-        .add(keyStroke(31, Key::W))
-        .add(keyStroke(33, Key::F12));                                       // zvo-0005.png, zvo-0006.png
-    script.add(keyStroke(34, Key::V, control)).add(keyStroke(35, Key::F12)); // zvo-0007.png
-    m_dir.write("script.json", script.text());
-    show(kCube + kCamera + kSize + kSteady +
-         std::vector<std::string>{"--frames", "38", "--input-script", "script.json", "--json", "stats.json",
-                                  "--record-input", "again.json", "--frames-in-flight", "3"});
+    script.press(23, Key::Digit1).press(25, Key::F12); // zvo-0004.png
+    script.press(27, Key::F).press(28, Key::C, kControl).press(29, Key::V, kControl);
+    script.press(30, Key::F12).press(31, Key::W).press(33, Key::F12); // zvo-0005.png, zvo-0006.png
+    script.press(34, Key::V, kControl).press(35, Key::F12);           // zvo-0007.png
+    show(kCube + kCamera + kSize + kSteady + playing(script) +
+         " --frames 38 --json stats.json --record-input again.json --frames-in-flight 3");
     EXPECT_EQ(file("again.json"), file("script.json"));
-    EXPECT_EQ(file("zvo-0001.png"), render(kCube + kCamera + kSize));
-    EXPECT_NE(file("zvo-0002.png"), file("zvo-0001.png"));
-    EXPECT_EQ(picture("zvo-0003.png").width, 333U);
-    EXPECT_EQ(picture("zvo-0003.png").height, 201U);
-    EXPECT_EQ(file("zvo-0004.png"), file("zvo-0001.png"));
-    EXPECT_NE(file("zvo-0006.png"), file("zvo-0005.png"));
-    EXPECT_EQ(file("zvo-0007.png"), file("zvo-0005.png")) << "the camera that was copied";
-    const json stats = json::parse(file("stats.json"));
+    EXPECT_EQ(shot(1), render(kCube + kCamera + kSize));
+    EXPECT_NE(shot(2), shot(1));
+    EXPECT_EQ(pixels("zvo-0003.png").width, 333U);
+    EXPECT_EQ(pixels("zvo-0003.png").height, 201U);
+    EXPECT_EQ(shot(4), shot(1));
+    EXPECT_NE(shot(6), shot(5));
+    EXPECT_EQ(shot(7), shot(5)) << "the camera that was copied";
+    const json stats = jsonFile("stats.json");
     EXPECT_EQ(stats["frames"], 38);
     EXPECT_EQ(stats["frames_drawn"], 38 - 6 - 2) << "none without an extent or while it was minimised";
     EXPECT_GE(stats["swapchains"], 4);
@@ -189,11 +146,10 @@ TEST_F(DemoWindow, AUserFliesResizesMinimizesAndComesBackToTheSamePicture)
 TEST_F(DemoWindow, PanelsShowEveryViewWithoutAWordFromTheLayers)
 {
     Script script;
-    script.add(keyStroke(1, Key::F1)).add(keyStroke(3, Key::F1));
-    for (std::uint64_t i = 0; i < cli::allViews().size(); ++i)
+    script.press(1, Key::F1).press(3, Key::F1);
+    for (std::uint64_t i = 0; i < cli::kViews.size(); ++i)
     {
-        script.add(keyStroke(5 + 2 * i, Key::V))
-            .add(5 + 2 * i, MouseMoveEvent{300.0 + 10.0 * static_cast<double>(i), 200});
+        script.press(5 + 2 * i, Key::V).add(5 + 2 * i, MouseMoveEvent{300.0 + 10.0 * static_cast<double>(i), 200});
     }
     // Clicks in panels close and open headers.
     for (std::uint64_t i = 0; i < 10; ++i)
@@ -203,20 +159,12 @@ TEST_F(DemoWindow, PanelsShowEveryViewWithoutAWordFromTheLayers)
         script.add(31 + 3 * i, MouseButtonEvent{MouseButton::Left, true, {}});
         script.add(32 + 3 * i, MouseButtonEvent{MouseButton::Left, false, {}});
     }
-    script.add(keyStroke(65, Key::H))
-        .add(keyStroke(67, Key::H))
-        .add(keyStroke(68, Key::F12))
-        .add(keyStroke(68, Key::F12, {true, false, false}));
-    script.add(keyStroke(71, Key::F12, {true, false, false}));
-    script.add(keyStroke(40, Key::R))
-        .add(keyStroke(60, Key::R))
-        .add(keyStroke(62, Key::P))
-        .add(keyStroke(63, Key::Space));
-    script.add(keyStroke(64, Key::Period));
-    m_dir.write("script.json", script.text());
-    show(std::vector<std::string>{"moving.scene.json", "--size", "500x400", "--frames", "76", "--input-script",
-                                  "script.json", "--json", "stats.json", "--screenshot", "last.png"});
-    const json stats = json::parse(file("stats.json"));
+    script.press(65, Key::H).press(67, Key::H).press(68, Key::F12).press(68, Key::F12, kShift);
+    script.press(71, Key::F12, kShift);
+    script.press(40, Key::R).press(60, Key::R).press(62, Key::P).press(63, Key::Space);
+    script.press(64, Key::Period);
+    show("moving.scene.json --size 500x400 --frames 76 --json stats.json --screenshot last.png" + playing(script));
+    const json stats = jsonFile("stats.json");
     EXPECT_EQ(stats["schema"], "zvo.demo/1");
     EXPECT_EQ(stats["frames_drawn"], 76);
     EXPECT_GT(stats["first_frame_ms"], 0);
@@ -235,10 +183,8 @@ TEST_F(DemoWindow, PanelsShowEveryViewWithoutAWordFromTheLayers)
     {
         EXPECT_TRUE(passes.contains(pass)) << pass;
     }
-    EXPECT_NE(file("last.png"), file("zvo-0002.png")) << "with and without panels";
-    EXPECT_EQ(
-        render(std::vector<std::string>{"cube.glb", "--resolution", "32", "--camera-path", "zvo-path.json"}).empty(),
-        false);
+    EXPECT_NE(file("last.png"), shot(2)) << "with and without panels";
+    EXPECT_FALSE(render("cube.glb --resolution 32 --camera-path zvo-path.json").empty());
 }
 
 // The reason in an error message, without the program's name.
@@ -252,27 +198,24 @@ TEST_F(DemoWindow, GoodFilesThatAreDroppedAreShownAndBadOnesAreNot)
 {
     m_dir.write("text.glb", std::string_view("this is no scene"));
     Script script;
-    script.add(1, demo::DropEvent{{"broken.glb"}}).add(keyStroke(2, Key::F12));
-    script.add(4, demo::DropEvent{{"missing.obj"}}).add(4, demo::DropEvent{{"text.glb"}}).add(keyStroke(5, Key::F12));
-    script.add(7, demo::DropEvent{{"slab.glb"}}).add(keyStroke(8, Key::F12));
+    script.add(1, demo::DropEvent{{"broken.glb"}}).press(2, Key::F12);
+    script.add(4, demo::DropEvent{{"missing.obj"}}).add(4, demo::DropEvent{{"text.glb"}}).press(5, Key::F12);
+    script.add(7, demo::DropEvent{{"slab.glb"}}).press(8, Key::F12);
     script.add(10, demo::DropEvent{{"moving.scene.json"}}).add(12, demo::DropEvent{{"cube.glb", "slab.glb"}});
-    m_dir.write("script.json", script.text());
-    const Outcome outcome = runDemo(
-        kCube + kSize + kSteady +
-        std::vector<std::string>{"--frames", "15", "--input-script", "script.json", "--screenshot", "last.png"});
+    const Outcome outcome = runDemo(kCube + kSize + kSteady + playing(script) + " --frames 15 --screenshot last.png");
     ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
     std::string expected;
-    for (const char* name : {"broken.glb", "missing.obj", "text.glb"})
+    for (const std::string name : {"broken.glb", "missing.obj", "text.glb"})
     {
-        const Outcome theirs = runZvo(m_dir.path(), {"render", name, "-o", "never.png"});
+        const Outcome theirs = runZvo(m_dir.path(), "render " + name + " -o never.png");
         EXPECT_EQ(theirs.exit_code, 3);
         expected += "zvo-demo" + reasonOf(theirs.err);
     }
     EXPECT_EQ(outcome.err, expected) << "a line for each of them, and nothing else";
-    EXPECT_EQ(file("zvo-0001.png"), render(kCube + kSize));
-    EXPECT_EQ(file("zvo-0002.png"), file("zvo-0001.png"));
-    EXPECT_EQ(file("zvo-0003.png"), render(std::vector<std::string>{"slab.glb", "--resolution", "64"} + kSize));
-    EXPECT_EQ(file("last.png"), render(std::vector<std::string>{"cube.glb", "slab.glb", "--resolution", "64"} + kSize));
+    EXPECT_EQ(shot(1), render(kCube + kSize));
+    EXPECT_EQ(shot(2), shot(1));
+    EXPECT_EQ(shot(3), render("slab.glb --resolution 64" + kSize));
+    EXPECT_EQ(file("last.png"), render("cube.glb slab.glb --resolution 64" + kSize));
 }
 
 // Without fixed steps, worlds are made while the old one is shown. In the end, the last dropped one is shown. The first
@@ -282,19 +225,16 @@ TEST_F(DemoWindow, ScenesAreMadeInTheBackground)
     Script script;
     script.add(2, demo::DropEvent{{"broken.glb"}}).add(100, demo::DropEvent{{"slab.glb"}});
     script.add(101, demo::DropEvent{{"moving.scene.json"}}).add(102, demo::DropEvent{{"slab.glb"}});
-    script.add(102, demo::ResizeEvent{300, 200}).add(keyStroke(103, Key::S, {false, true, false})); // refused now
-    m_dir.write("script.json", script.text());
+    script.add(102, demo::ResizeEvent{300, 200}).press(103, Key::S, kControl); // refused now
     const Outcome outcome =
-        runDemo(kCube + kSize +
-                std::vector<std::string>{"--frames", "250", "--hide-ui", "--internal-scale", "1", "--input-script",
-                                         "script.json", "--screenshot", "last.png", "--json", "stats.json"});
+        runDemo(kCube + kSize + playing(script) +
+                " --frames 250 --hide-ui --internal-scale 1 --screenshot last.png --json stats.json");
     ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
     EXPECT_NE(outcome.err.find("broken.glb"), std::string::npos) << outcome.err;
     EXPECT_EQ(std::ranges::count(outcome.err, '\n'), 1) << outcome.err;
-    EXPECT_EQ(json::parse(file("stats.json"))["scene"]["name"], "slab.glb");
-    EXPECT_EQ(json::parse(file("stats.json"))["frames"], 250);
-    EXPECT_EQ(file("last.png"),
-              render(std::vector<std::string>{"slab.glb", "--resolution", "64", "--size", "300x200"}));
+    EXPECT_EQ(jsonFile("stats.json")["scene"]["name"], "slab.glb");
+    EXPECT_EQ(jsonFile("stats.json")["frames"], 250);
+    EXPECT_EQ(file("last.png"), render("slab.glb --resolution 64 --size 300x200"));
 }
 
 // The program quits while a world is made, and does not wait for further ones.
@@ -305,8 +245,7 @@ TEST_F(DemoWindow, QuitsWhileAWorldIsMade)
         Script script;
         script.add(2, demo::DropEvent{{"moving.scene.json"}}).add(3, demo::DropEvent{{"slab.glb"}});
         script.add(quit, demo::CloseEvent{});
-        m_dir.write("script.json", script.text());
-        show(kCube + kSize + std::vector<std::string>{"--hide-ui", "--input-script", "script.json"});
+        show(kCube + kSize + playing(script) + " --hide-ui");
     }
 }
 
@@ -337,32 +276,25 @@ private:
 
 constexpr const char* kPixelLine = "color = encodeSrgb(surface.albedo);";
 
+const Script kPicturesAroundF5 = Script().press(1, Key::F12).press(3, Key::F5).press(5, Key::F12);
+const std::string kOfTheseShaders = " --view albedo --frames 8 --shaders shaders";
+
 TEST_F(DemoWindow, AShaderWithAnErrorLeavesTheOldOneAndSaysWhy)
 {
     const ChangedShaders shaders(m_dir, "trace/views.comp", kPixelLine, "color = nonsense;");
-    Script script;
-    script.add(keyStroke(1, Key::F12)).add(keyStroke(3, Key::F5)).add(keyStroke(5, Key::F12));
-    m_dir.write("script.json", script.text());
-    const Outcome outcome = runDemo(kCube + kCamera + kSize + kSteady +
-                                    std::vector<std::string>{"--view", "albedo", "--frames", "8", "--shaders",
-                                                             "shaders", "--input-script", "script.json"});
+    const Outcome outcome = runDemo(kCube + kCamera + kSize + kSteady + kOfTheseShaders + playing(kPicturesAroundF5));
     ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
     EXPECT_NE(outcome.err.find("'nonsense' : undeclared identifier"), std::string::npos) << outcome.err;
     EXPECT_NE(outcome.err.find("views.comp"), std::string::npos) << outcome.err;
-    EXPECT_EQ(file("zvo-0002.png"), file("zvo-0001.png"));
+    EXPECT_EQ(shot(2), shot(1));
 }
 
 TEST_F(DemoWindow, AShaderThatWasChangedShowsAtOnce)
 {
     const ChangedShaders shaders(m_dir, "trace/views.comp", kPixelLine, "color = vec3(1.0, 0.0, 1.0);");
-    Script script;
-    script.add(keyStroke(1, Key::F12)).add(keyStroke(3, Key::F5)).add(keyStroke(5, Key::F12));
-    m_dir.write("script.json", script.text());
-    show(kCube + kCamera + kSize + kSteady +
-         std::vector<std::string>{"--view", "albedo", "--frames", "8", "--shaders", "shaders", "--input-script",
-                                  "script.json"});
-    const Image before = picture("zvo-0001.png");
-    const Image after = picture("zvo-0002.png");
+    show(kCube + kCamera + kSize + kSteady + kOfTheseShaders + playing(kPicturesAroundF5));
+    const Image before = pixels("zvo-0001.png");
+    const Image after = pixels("zvo-0002.png");
     int changed = 0;
     for (std::size_t i = 0; i < before.rgba.size(); i += 4)
     {
@@ -378,62 +310,52 @@ TEST_F(DemoWindow, AShaderThatWasChangedShowsAtOnce)
 TEST_F(DemoWindow, SettingsAreKeptButForRunsOfSoManyFrames)
 {
     Script script;
-    script.add(keyStroke(1, Key::V)).add(keyStroke(2, Key::F1)).add(keyStroke(4, Key::Q, {false, true, false}));
-    m_dir.write("script.json", script.text());
-    const std::vector<std::string> play = {"--input-script", "script.json"};
-    show(kCube + kSize + play + std::vector<std::string>{"--frames", "3"});
-    EXPECT_FALSE(has("config/zvo/demo.json"));
+    script.press(1, Key::V).press(2, Key::F1).press(4, Key::Q, kControl);
+    const std::string play = playing(script);
+    show(kCube + kSize + play + " --frames 3");
+    EXPECT_FALSE(fs::exists(m_dir.path() / "config/zvo/demo.json"));
     show(kCube + kSize + play);
-    const json kept = json::parse(file("config/zvo/demo.json"));
+    const json kept = jsonFile("config/zvo/demo.json");
     EXPECT_EQ(kept["window"]["width"], 240);
     EXPECT_EQ(kept["view"]["view"], "albedo");
     EXPECT_EQ(kept["keys"], true);
     show(kCube + play); // in a window of that size, flying from that view to the next
-    EXPECT_EQ(json::parse(file("config/zvo/demo.json"))["window"]["width"], 240);
-    EXPECT_EQ(json::parse(file("config/zvo/demo.json"))["view"]["view"], "normal");
+    EXPECT_EQ(jsonFile("config/zvo/demo.json")["window"]["width"], 240);
+    EXPECT_EQ(jsonFile("config/zvo/demo.json")["view"]["view"], "normal");
     m_dir.write("config/zvo/demo.json", std::string_view("{\"schema\": 7"));
     const Outcome outcome = runDemo(kCube + kSize + play);
     EXPECT_EQ(outcome.exit_code, 0);
     EXPECT_NE(outcome.err.find("zvo-demo: warning: settings are not used"), std::string::npos) << outcome.err;
-    EXPECT_EQ(json::parse(file("config/zvo/demo.json"))["view"]["view"], "albedo");
+    EXPECT_EQ(jsonFile("config/zvo/demo.json")["view"]["view"], "albedo");
 }
 
 TEST_F(DemoWindow, WithoutASceneItWaitsForOne)
 {
     Script script;
-    script.add(3, demo::DropEvent{{"cube.glb"}}).add(keyStroke(1, Key::F12));
-    m_dir.write("script.json", script.text());
-    show(kSize + kSteady +
-         std::vector<std::string>{"--resolution", "64", "--frames", "6", "--input-script", "script.json",
-                                  "--screenshot", "last.png"});
-    EXPECT_NE(file("zvo-0001.png"), file("last.png"));
+    script.add(3, demo::DropEvent{{"cube.glb"}}).press(1, Key::F12);
+    show("--resolution 64 --frames 6 --screenshot last.png" + kSize + kSteady + playing(script));
+    EXPECT_NE(shot(1), file("last.png"));
     EXPECT_EQ(file("last.png"), render(kCube + kSize));
 }
 
 TEST_F(DemoWindow, ErrorsAreThoseOfTheCommandLine)
 {
-    const auto expectError = [&](const std::vector<std::string>& arguments, int code, const std::string& part)
-    {
-        const Outcome outcome = runDemo(arguments);
-        EXPECT_EQ(outcome.exit_code, code) << outcome.err;
-        EXPECT_TRUE(outcome.err.starts_with("zvo-demo: error: ")) << outcome.err;
-        EXPECT_NE(outcome.err.find(part), std::string::npos) << outcome.err;
-        EXPECT_EQ(std::ranges::count(outcome.err, '\n'), 1) << outcome.err;
-    };
-    expectError({"--nonsense"}, 2, "zvo-demo --help");
-    expectError({"cube.glb", "--view", "smell"}, 2, "--view smell");
-    expectError({"cube.glb", "--internal-scale", "2"}, 2, "at most 1");
-    expectError({"cube.glb", "--screenshot", "a.png"}, 2, "--frames");
-    expectError({"broken.glb"}, 3, "broken.glb");
-    expectError({"cube.glb", "--input-script", "missing.json"}, 3, "missing.json");
-    expectError({"cube.glb", "--frames", "1", "--screenshot", "nowhere/a.png"}, 4, "nowhere");
-    expectError({"cube.glb", "--frames", "1", "--json", "cube.glb", "-f"}, 2, "is an input");
-    expectError({"cube.glb", "--frames", "1", "--record-input", "./cube.glb", "-f"}, 2, "is an input");
-    expectError({"cube.glb", "--frames", "1", "--json", "a.png", "--screenshot", "a.png"}, 2, "two outputs");
-    expectError({"cube.glb", "--frames", "1", "--screenshot", "cube.glb", "-f"}, 2, ".png");
-    expectError({"cube.glb", "--frames", "1", "--json", "broken.glb"}, 4, "broken.glb");
+    const auto expectError = [this](const CommandLine& arguments, int exit_code, const std::string& part)
+    { expectErrorLine(runDemo(arguments), exit_code, {part}, "zvo-demo"); };
+    expectError("--nonsense", 2, "zvo-demo --help");
+    expectError("cube.glb --view smell", 2, "--view smell");
+    expectError("cube.glb --internal-scale 2", 2, "at most 1");
+    expectError("cube.glb --screenshot a.png", 2, "--frames");
+    expectError("broken.glb", 3, "broken.glb");
+    expectError("cube.glb --input-script missing.json", 3, "missing.json");
+    expectError("cube.glb --frames 1 --screenshot nowhere/a.png", 4, "nowhere");
+    expectError("cube.glb --frames 1 --json cube.glb -f", 2, "is an input");
+    expectError("cube.glb --frames 1 --record-input ./cube.glb -f", 2, "is an input");
+    expectError("cube.glb --frames 1 --json a.png --screenshot a.png", 2, "two outputs");
+    expectError("cube.glb --frames 1 --screenshot cube.glb -f", 2, ".png");
+    expectError("cube.glb --frames 1 --json broken.glb", 4, "broken.glb");
     expectError({"cube.glb", "--device", "no such device"}, 5, "no such device");
-    expectError({"cube.glb", "--memory-limit", "1M"}, 6, "--memory-limit");
+    expectError("cube.glb --memory-limit 1M", 6, "--memory-limit");
 }
 
 TEST(DemoWithoutADisplay, PointsToZvoRender)
@@ -441,10 +363,7 @@ TEST(DemoWithoutADisplay, PointsToZvoRender)
     const TempDir dir;
     const Outcome outcome =
         ZvoProcess(ZVO_DEMO_PROGRAM, dir.path(), {"zvo-demo"}, {"DISPLAY=", "WAYLAND_DISPLAY="}).wait();
-    EXPECT_EQ(outcome.exit_code, 5);
-    EXPECT_TRUE(outcome.err.starts_with("zvo-demo: error: there is no display")) << outcome.err;
-    EXPECT_NE(outcome.err.find("zvo render"), std::string::npos) << outcome.err;
-    EXPECT_EQ(std::ranges::count(outcome.err, '\n'), 1) << outcome.err;
+    expectErrorLine(outcome, 5, {"error: there is no display", "zvo render"}, "zvo-demo");
     const Outcome help = ZvoProcess(ZVO_DEMO_PROGRAM, dir.path(), {"zvo-demo", "--help"}, {"DISPLAY="}).wait();
     EXPECT_EQ(help.exit_code, 0);
     EXPECT_NE(help.out.find("--camera-path"), std::string::npos);

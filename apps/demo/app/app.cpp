@@ -46,20 +46,14 @@ Settings settingsFor(const DemoOptions& options)
     return file ? readSettings(*file) : Settings{};
 }
 
-// The view of the options, or of the settings where options are not given.
+// The view of the settings, with the changes that options make.
 ViewState viewOf(const DemoOptions& options, const Settings& settings)
 {
     ViewState view = settings.view;
-    FrameOptions& frame = view.frame;
-    frame.trace.view = options.view.value_or(frame.trace.view);
-    frame.integrator = options.integrator.value_or(frame.integrator);
-    frame.denoise = options.denoise || frame.denoise;
-    frame.trace.occlusion_rays = options.occlusion_rays.value_or(frame.trace.occlusion_rays);
-    frame.trace.to_sun = options.to_sun.value_or(frame.trace.to_sun);
-    frame.exposure.factor = options.exposure.value_or(frame.exposure.factor);
-    frame.trace.detail_pixels = options.detail_pixels.value_or(frame.trace.detail_pixels);
-    view.internal_scale = options.internal_scale ? options.internal_scale : view.internal_scale;
-    view.present_mode = options.present_mode.value_or(view.present_mode);
+    for (const ViewChange& change : options.view_changes)
+    {
+        change(view);
+    }
     return view;
 }
 
@@ -77,7 +71,7 @@ bool beginPanels(const char* title, bool is_right)
 } // namespace
 
 App::App(const DemoOptions& options, Clock::time_point start)
-    : m_options(options), m_settings(settingsFor(options)), m_start(start),
+    : m_options(options), m_settings(settingsFor(options)), m_view(viewOf(options, m_settings)), m_start(start),
       m_screenshot_output(outputTo(options.screenshot, options.overwrite)),
       m_stats_output(outputTo(options.json, options.overwrite)),
       m_record_output(options.record_input ? outputTo(options.record_input->string(), options.overwrite) : nullptr),
@@ -86,10 +80,10 @@ App::App(const DemoOptions& options, Clock::time_point start)
       m_window(options.size.value_or(m_settings.window), "zvo"),
       m_device(deviceOptions(options, m_window), zvoKernels()),
       m_swapchain(m_device, [this](VkInstance instance) { return m_window.makeSurface(instance); },
-                  {options.present_mode.value_or(m_settings.view.present_mode), options.frames_in_flight}),
+                  {m_view.present_mode, options.frames_in_flight}),
       m_compose_pass(m_device.device()), m_ui(m_device, m_compose_pass, m_window, options.frames_in_flight),
       m_world(World::make(m_device, m_world_options, m_first_input.get())), m_renderer(m_device, m_compose_pass),
-      m_view(viewOf(options, m_settings)), m_timeline(options.fixed_step),
+      m_timeline(options.fixed_step),
       m_camera(cli::chooseCamera(options.camera, m_world->scene.animated(), m_world->subject, aspect()),
                m_world->subject),
       m_flight(options.fixed_step), m_shaders(options.shaders ? *options.shaders : shadersOf(thisProgram())),

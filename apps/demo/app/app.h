@@ -7,6 +7,7 @@
 #include "demo/app/settings.h"
 #include "demo/app/shader_sources.h"
 #include "demo/app/ui.h"
+#include "demo/app/view_settings.h"
 #include "demo/app/window.h"
 #include "demo/input/camera_control.h"
 #include "demo/input/camera_flight.h"
@@ -135,6 +136,7 @@ private:
 
     const DemoOptions m_options;
     Settings m_settings; // at the beginning
+    ViewState m_view;
     Clock::time_point m_start;
     std::unique_ptr<cli::Output> m_screenshot_output; // of the last frame
     std::unique_ptr<cli::Output> m_stats_output;
@@ -154,7 +156,6 @@ private:
     Renderer m_renderer;
     std::deque<FrameInFlight> m_frames_in_flight;
 
-    ViewState m_view;
     Editor m_editor;
     PanelState m_panels;
     Notices m_notices;

@@ -2,9 +2,8 @@
 // App: the actions of keys.
 #include "demo/app/app.h"
 
+#include "common/names.h"
 #include "common/progress.h"
-#include "common/view.h"
-#include "demo/app/reload_shaders.h"
 #include "io/file/atomic_file.h"
 #include "zvo/error.h"
 
@@ -148,10 +147,10 @@ void App::pasteCamera()
 
 void App::changeView(int by)
 {
-    const auto views = cli::allViews();
-    const auto current = std::ranges::find(views, m_view.frame.trace.view, &cli::NamedView::view) - views.begin();
-    const auto count = static_cast<std::ptrdiff_t>(views.size());
-    m_view.frame.trace.view = views[static_cast<std::size_t>((current + by + count) % count)].view;
+    View& view = m_view.frame.trace.view;
+    const auto current = std::ranges::find(cli::kViews, view, &cli::Named<View>::value) - cli::kViews.begin();
+    const auto count = static_cast<std::ptrdiff_t>(cli::kViews.size());
+    view = cli::kViews[static_cast<std::size_t>((current + by + count) % count)].value;
 }
 
 void App::toggleRecording()

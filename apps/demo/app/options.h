@@ -2,18 +2,17 @@
 #pragma once
 
 #include "common/scene_options.h"
-#include "core/frame/frame_options.h"
 #include "core/present/present.h"
 #include "core/tree/tree_data.h"
+#include "demo/app/view_settings.h"
 #include "demo/input/elapsed.h"
-#include "vk/swapchain.h"
 #include "zvo/dynamic_tree.h"
 
 #include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
-#include <variant>
+#include <vector>
 
 namespace zvo::demo
 {
@@ -28,15 +27,7 @@ struct DemoOptions
 
     std::string camera; // as in `zvo render`
     std::optional<std::filesystem::path> camera_path;
-    std::optional<View> view;
-    std::optional<Integrator> integrator;
-    bool denoise = false;
-    std::optional<std::uint32_t> occlusion_rays;
-    std::optional<glm::dvec3> to_sun;
-    std::optional<float> exposure;
-    std::optional<float> detail_pixels;
-    std::optional<double> internal_scale; // above 0, at most 1
-    std::optional<vk::PresentMode> present_mode;
+    std::vector<ViewChange> view_changes; // to the view of the settings
     std::uint32_t frames_in_flight = DynamicTreeInfo().frames_in_flight;
 
     std::optional<std::uint64_t> frame_count; // frames after which the program ends
@@ -54,8 +45,8 @@ struct DemoOptions
     [[nodiscard]] bool usesSettings() const { return !frame_count.has_value(); }
 };
 
-/// Reads the command line: options, or a text that is printed (help, version). Throws Error{Usage}, one line, for
-/// anything that is not understood.
-std::variant<std::string, DemoOptions> parseCommandLine(int argc, const char* const* argv);
+/// Reads the command line. Nothing if it asks for a text, help or version, which is printed. Throws Error{Usage}, one
+/// line, for anything that is not understood.
+std::optional<DemoOptions> parseCommandLine(int argc, const char* const* argv);
 
 } // namespace zvo::demo

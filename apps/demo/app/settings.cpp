@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "demo/app/settings.h"
 
-#include "common/environment.h"
-#include "common/integrator_name.h"
 #include "common/progress.h"
-#include "common/view.h"
+#include "common/session.h"
 #include "core/base/read_file.h"
+#include "demo/app/view_settings.h"
 #include "io/file/atomic_file.h"
 #include "io/file/json_cursor.h"
 #include "io/image/image_io.h"
@@ -15,8 +14,11 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <iterator>
 #include <span>
 #include <system_error>
+#include <utility>
+#include <vector>
 
 namespace zvo::demo
 {
@@ -27,28 +29,8 @@ namespace
 using Json = nlohmann::ordered_json;
 
 constexpr const char* kSchema = "zvo.demo_settings/1";
-constexpr double kExposureMax = 1000;
-constexpr double kDetailMax = 1000; // pixels
-
-const char* modeName(vk::PresentMode mode)
-{
-    return mode == vk::PresentMode::Fifo ? "fifo" : mode == vk::PresentMode::Mailbox ? "mailbox" : "immediate";
-}
-
-View readView(const JsonCursor& value)
-{
-    const std::string name = value.text();
-    const auto views = cli::allViews();
-    const auto found = std::ranges::find(views, name, &cli::NamedView::name);
-    if (found == views.end())
-    {
-        throw value.mismatch("the name of a view");
-    }
-    return found->view;
-}
-
 // Calls read with the member of that name, if there is one.
-template <typename Read> void with(const JsonCursor& object, const char* name, Read read)
+template <typename Read> void with(const JsonCursor& object, std::string_view name, Read read)
 {
     if (const std::optional<JsonCursor> value = object.find(name))
     {
@@ -56,47 +38,25 @@ template <typename Read> void with(const JsonCursor& object, const char* name, R
     }
 }
 
-void readViewState(const JsonCursor& object, ViewState& view)
+ViewState readViewState(const JsonCursor& object)
 {
-    FrameOptions& frame = view.frame;
-    object.allowKeys({"view", "integrator", "denoise", "shadows", "occlusion", "sun", "exposure", "detail",
-                      "internal_scale", "present"});
-    with(object, "view", [&](const JsonCursor& value) { frame.trace.view = readView(value); });
-    with(object, "integrator",
-         [&](const JsonCursor& value)
-         { frame.integrator = static_cast<Integrator>(value.oneOf(cli::kIntegratorNames)); });
-    with(object, "denoise", [&](const JsonCursor& value) { frame.denoise = value.flag(); });
-    with(object, "shadows", [&](const JsonCursor& value) { frame.trace.shadows = value.flag(); });
-    with(object, "occlusion",
-         [&](const JsonCursor& value) { frame.trace.occlusion_rays = value.whole(0, kOcclusionRaysMax); });
-    with(object, "sun",
-         [&](const JsonCursor& value)
-         {
-             static_cast<void>(value.direction()); // checks that not all numbers are 0; any length is allowed
-             frame.trace.to_sun = value.vector();
-         });
-    with(object, "exposure",
-         [&](const JsonCursor& value) { frame.exposure.factor = static_cast<float>(value.positive(kExposureMax)); });
-    with(object, "detail",
-         [&](const JsonCursor& value) { frame.trace.detail_pixels = static_cast<float>(value.positive(kDetailMax)); });
-    with(object, "internal_scale", [&](const JsonCursor& value) { view.internal_scale = value.positive(1); });
-    with(object, "present",
-         [&](const JsonCursor& value) {
-             view.present_mode = static_cast<vk::PresentMode>(value.oneOf({"fifo", "mailbox", "immediate"}));
-         });
+    std::vector<std::string_view> keys;
+    std::ranges::transform(viewSettings(), std::back_inserter(keys), &ViewSetting::key);
+    object.allowKeys(keys);
+    ViewState view;
+    for (const ViewSetting& setting : viewSettings())
+    {
+        with(object, setting.key, [&](const JsonCursor& value) { setting.read(view, value); });
+    }
+    return view;
 }
 
 } // namespace
 
 std::optional<std::filesystem::path> settingsFile()
 {
-    std::filesystem::path base = cli::environmentPath("XDG_CONFIG_HOME");
-    if (base.empty())
-    {
-        base = cli::environmentPath("HOME");
-        base = base.empty() ? base : base / ".config";
-    }
-    return base.empty() ? std::nullopt : std::optional(base / "zvo" / "demo.json");
+    const std::filesystem::path folder = cli::userFolder("XDG_CONFIG_HOME", ".config");
+    return folder.empty() ? std::nullopt : std::optional(folder / "demo.json");
 }
 
 Settings parseSettings(std::string_view text, const std::filesystem::path& file)
@@ -114,37 +74,24 @@ Settings parseSettings(std::string_view text, const std::filesystem::path& file)
          });
     with(object, "panels", [&](const JsonCursor& value) { settings.shows_panels = value.flag(); });
     with(object, "keys", [&](const JsonCursor& value) { settings.shows_keys = value.flag(); });
-    with(object, "view", [&](const JsonCursor& value) { readViewState(value, settings.view); });
+    with(object, "view", [&](const JsonCursor& value) { settings.view = readViewState(value); });
     return settings;
 }
 
 std::string settingsText(const Settings& settings)
 {
-    const ViewState& view = settings.view;
-    const FrameOptions& frame = view.frame;
-    const auto views = cli::allViews();
     Json json;
     json["schema"] = kSchema;
     json["window"] = {{"width", settings.window.width}, {"height", settings.window.height}};
     json["panels"] = settings.shows_panels;
     json["keys"] = settings.shows_keys;
-    Json& shown = json["view"];
-    shown["view"] = std::ranges::find(views, frame.trace.view, &cli::NamedView::view)->name;
-    shown["integrator"] = std::string(cli::nameOf(frame.integrator));
-    shown["denoise"] = frame.denoise;
-    shown["shadows"] = frame.trace.shadows;
-    shown["occlusion"] = frame.trace.occlusion_rays;
-    shown["sun"] = {frame.trace.to_sun.x, frame.trace.to_sun.y, frame.trace.to_sun.z};
-    shown["exposure"] = double{frame.exposure.factor};
-    if (frame.trace.detail_pixels > 0.0F)
+    for (const ViewSetting& setting : viewSettings())
     {
-        shown["detail"] = double{frame.trace.detail_pixels};
+        if (Json value = setting.write(settings.view); !value.is_null())
+        {
+            json["view"][setting.key] = std::move(value);
+        }
     }
-    if (view.internal_scale)
-    {
-        shown["internal_scale"] = *view.internal_scale;
-    }
-    shown["present"] = modeName(view.present_mode);
     return json.dump(2) + "\n";
 }
 

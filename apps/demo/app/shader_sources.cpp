@@ -255,4 +255,35 @@ std::vector<CompiledShader> ShaderSources::compile(const std::vector<std::string
     return results;
 }
 
+ReloadedShaders reloadShaders(vk::KernelCache& kernels, ShaderSources& sources)
+{
+    ReloadedShaders result;
+    try
+    {
+        for (CompiledShader& shader : sources.compile(sources.takeChanged(kernels.names())))
+        {
+            if (shader.words.empty())
+            {
+                result.message += shader.message;
+                continue;
+            }
+            try
+            {
+                kernels.replace(shader.name, std::move(shader.words));
+                ++result.count;
+            }
+            catch (const Error& error)
+            {
+                result.message += std::string(error.what()) + "\n";
+            }
+        }
+    }
+    catch (const Error& error)
+    {
+        result.message += error.what();
+    }
+    kernels.releaseReplaced();
+    return result;
+}
+
 } // namespace zvo::demo

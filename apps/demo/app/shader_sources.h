@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "vk/kernel.h"
+
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <set>
@@ -41,6 +44,17 @@ private:
     std::filesystem::file_time_type m_checked;
     std::set<std::string> m_failed;
 };
+
+/// The result of reloading shaders.
+struct ReloadedShaders
+{
+    std::size_t count = 0; // kernels that were replaced
+    std::string message;   // why other kernels were not replaced; empty: all were
+};
+
+/// Compiles the kernels in sources that have changed, and replaces them. Kernels that do not compile, or do not fit
+/// this program, stay as they were. The device must be done with all work.
+ReloadedShaders reloadShaders(vk::KernelCache& kernels, ShaderSources& sources);
 
 /// Where the sources of a program's shaders are: what was installed with it or, where nothing was, what it was built
 /// from.

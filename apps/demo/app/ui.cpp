@@ -50,7 +50,7 @@ struct Feed
     }
     bool operator()(const TextEvent& event) const
     {
-        io.AddInputCharacter(event.code);
+        io.AddInputCharactersUTF8(event.text.c_str());
         return io.WantTextInput;
     }
     bool operator()(const MouseMoveEvent& event) const

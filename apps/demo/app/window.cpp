@@ -75,6 +75,16 @@ Modifiers modifiersOf(int bits)
     return {(bits & GLFW_MOD_SHIFT) != 0, (bits & GLFW_MOD_CONTROL) != 0, (bits & GLFW_MOD_ALT) != 0};
 }
 
+std::string utf8(unsigned code)
+{
+    const auto further = [code](int shift) { return static_cast<char>(0x80 | (code >> shift & 0x3F)); };
+    const auto first = [code](unsigned marks, int shift) { return static_cast<char>(marks | code >> shift); };
+    return code < 0x80      ? std::string{first(0, 0)}
+           : code < 0x800   ? std::string{first(0xC0, 6), further(0)}
+           : code < 0x10000 ? std::string{first(0xE0, 12), further(6), further(0)}
+                            : std::string{first(0xF0, 18), further(12), further(6), further(0)};
+}
+
 Window& windowOf(GLFWwindow* window)
 {
     return *static_cast<Window*>(glfwGetWindowUserPointer(window));
@@ -91,7 +101,7 @@ void installCallbacks(GLFWwindow* window)
                                windowOf(w).note(KeyEvent{*key, action != GLFW_RELEASE, modifiersOf(modifiers)});
                            }
                        });
-    glfwSetCharCallback(window, [](GLFWwindow* w, unsigned code) { windowOf(w).note(TextEvent{code}); });
+    glfwSetCharCallback(window, [](GLFWwindow* w, unsigned code) { windowOf(w).note(TextEvent{utf8(code)}); });
     glfwSetCursorPosCallback(window, [](GLFWwindow* w, double x, double y) { windowOf(w).note(MouseMoveEvent{x, y}); });
     glfwSetMouseButtonCallback(window,
                                [](GLFWwindow* w, int button, int action, int modifiers)

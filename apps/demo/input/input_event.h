@@ -61,7 +61,7 @@ struct KeyEvent
 /// A character that was typed.
 struct TextEvent
 {
-    char32_t code = 0;
+    std::string text; // UTF-8
 
     bool operator==(const TextEvent&) const = default;
 };

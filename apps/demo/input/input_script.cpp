@@ -26,45 +26,10 @@ constexpr std::uint32_t kEdgeMax = 16384; // of a window
 constexpr double kWheelMax = 1000;
 constexpr std::array<std::string_view, kMouseButtonCount> kButtonNames = {"left", "right", "middle"};
 
-// The code point, if text is a single one.
-std::optional<char32_t> onlyCodePoint(std::string_view text)
+bool isOneCharacter(std::string_view utf8)
 {
-    const auto byte = [text](std::size_t i) { return static_cast<unsigned char>(text[i]); };
-    if (text.empty())
-    {
-        return std::nullopt;
-    }
-    const unsigned first = byte(0);
-    const std::size_t length = first < 0x80 ? 1 : first < 0xE0 ? 2 : first < 0xF0 ? 3 : 4;
-    if (text.size() != length)
-    {
-        return std::nullopt;
-    }
-    char32_t code = length == 1 ? first : first & (0xFFU >> (length + 1));
-    for (std::size_t i = 1; i < length; ++i)
-    {
-        code = (code << 6) | (byte(i) & 0x3FU);
-    }
-    return code;
-}
-
-std::string utf8(char32_t code)
-{
-    const auto byte = [](char32_t value) { return static_cast<char>(value); };
-    if (code < 0x80)
-    {
-        return {byte(code)};
-    }
-    if (code < 0x800)
-    {
-        return {byte(0xC0 | code >> 6), byte(0x80 | (code & 0x3F))};
-    }
-    if (code < 0x10000)
-    {
-        return {byte(0xE0 | code >> 12), byte(0x80 | (code >> 6 & 0x3F)), byte(0x80 | (code & 0x3F))};
-    }
-    return {byte(0xF0 | code >> 18), byte(0x80 | (code >> 12 & 0x3F)), byte(0x80 | (code >> 6 & 0x3F)),
-            byte(0x80 | (code & 0x3F))};
+    return std::ranges::count_if(utf8, [](char byte) { return (byte & 0xC0) != 0x80; }) ==
+           1; // not a further byte of one
 }
 
 Modifiers readModifiers(const JsonCursor& event)
@@ -100,99 +65,93 @@ std::array<double, 2> readPair(const JsonCursor& value, double most)
     return pair;
 }
 
-InputEvent readKey(const JsonCursor& event, const JsonCursor& name)
+struct Kind
 {
-    event.allowKeys({"frame", "key", "pressed", "modifiers"});
-    const std::optional<Key> key = keyOf(name.text());
-    if (!key)
-    {
-        throw name.mismatch("the name of a key, such as W, 1, F5, Space or LeftCtrl");
-    }
-    return KeyEvent{*key, event.at("pressed").flag(), readModifiers(event)};
-}
+    std::string_view name;
+    bool is_pressed; // or released, with modifiers or without
+    InputEvent (*read)(const JsonCursor& event, const JsonCursor& value);
+};
 
-InputEvent readButton(const JsonCursor& event, const JsonCursor& name)
-{
-    event.allowKeys({"frame", "button", "pressed", "modifiers"});
-    const std::size_t button = name.oneOf(kButtonNames);
-    return MouseButtonEvent{static_cast<MouseButton>(button), event.at("pressed").flag(), readModifiers(event)};
-}
-
-InputEvent readText(const JsonCursor& event, const JsonCursor& text)
-{
-    event.allowKeys({"frame", "text"});
-    const std::optional<char32_t> code = onlyCodePoint(text.text());
-    if (!code)
-    {
-        throw text.mismatch("one character");
-    }
-    return TextEvent{*code};
-}
-
-InputEvent readMove(const JsonCursor& event, const JsonCursor& place)
-{
-    event.allowKeys({"frame", "move"});
-    const auto [x, y] = readPair(place, kEdgeMax);
-    return MouseMoveEvent{x, y};
-}
-
-InputEvent readWheel(const JsonCursor& event, const JsonCursor& notches)
-{
-    event.allowKeys({"frame", "wheel"});
-    const auto [x, y] = readPair(notches, kWheelMax);
-    return WheelEvent{x, y};
-}
-
-InputEvent readResize(const JsonCursor& event, const JsonCursor& size)
-{
-    event.allowKeys({"frame", "resize"});
-    const std::vector<JsonCursor> items = size.items();
-    if (items.size() != 2)
-    {
-        throw size.mismatch("a width and a height");
-    }
-    return ResizeEvent{items[0].whole(0, kEdgeMax), items[1].whole(0, kEdgeMax)};
-}
-
-InputEvent readMinimize(const JsonCursor& event, const JsonCursor& minimized)
-{
-    event.allowKeys({"frame", "minimised"});
-    return MinimizeEvent{minimized.flag()};
-}
-
-InputEvent readDrop(const JsonCursor& event, const JsonCursor& files)
-{
-    event.allowKeys({"frame", "drop"});
-    DropEvent drop;
-    for (const JsonCursor& file : files.items())
-    {
-        drop.files.emplace_back(file.text());
-    }
-    return drop;
-}
-
-InputEvent readClose(const JsonCursor& event, const JsonCursor& close)
-{
-    event.allowKeys({"frame", "close"});
-    if (!close.flag())
-    {
-        throw close.mismatch("true");
-    }
-    return CloseEvent{};
-}
+constexpr Kind kKinds[] = {
+    {"key", true,
+     [](const JsonCursor& event, const JsonCursor& name) -> InputEvent
+     {
+         const std::optional<Key> key = keyOf(name.text());
+         if (!key)
+         {
+             throw name.mismatch("the name of a key, such as W, 1, F5, Space or LeftCtrl");
+         }
+         return KeyEvent{*key, event.at("pressed").flag(), readModifiers(event)};
+     }},
+    {"button", true,
+     [](const JsonCursor& event, const JsonCursor& name) -> InputEvent
+     {
+         const std::size_t button = name.oneOf(kButtonNames);
+         return MouseButtonEvent{static_cast<MouseButton>(button), event.at("pressed").flag(), readModifiers(event)};
+     }},
+    {"text", false,
+     [](const JsonCursor&, const JsonCursor& text) -> InputEvent
+     {
+         if (!isOneCharacter(text.text()))
+         {
+             throw text.mismatch("one character");
+         }
+         return TextEvent{text.text()};
+     }},
+    {"move", false,
+     [](const JsonCursor&, const JsonCursor& place) -> InputEvent
+     {
+         const auto [x, y] = readPair(place, kEdgeMax);
+         return MouseMoveEvent{x, y};
+     }},
+    {"wheel", false,
+     [](const JsonCursor&, const JsonCursor& notches) -> InputEvent
+     {
+         const auto [x, y] = readPair(notches, kWheelMax);
+         return WheelEvent{x, y};
+     }},
+    {"resize", false,
+     [](const JsonCursor&, const JsonCursor& size) -> InputEvent
+     {
+         const std::vector<JsonCursor> items = size.items();
+         if (items.size() != 2)
+         {
+             throw size.mismatch("a width and a height");
+         }
+         return ResizeEvent{items[0].whole(0, kEdgeMax), items[1].whole(0, kEdgeMax)};
+     }},
+    {"minimised", false,
+     [](const JsonCursor&, const JsonCursor& minimized) -> InputEvent { return MinimizeEvent{minimized.flag()}; }},
+    {"drop", false,
+     [](const JsonCursor&, const JsonCursor& files) -> InputEvent
+     {
+         DropEvent drop;
+         for (const JsonCursor& file : files.items())
+         {
+             drop.files.emplace_back(file.text());
+         }
+         return drop;
+     }},
+    {"close", false,
+     [](const JsonCursor&, const JsonCursor& close) -> InputEvent
+     {
+         if (!close.flag())
+         {
+             throw close.mismatch("true");
+         }
+         return CloseEvent{};
+     }},
+};
 
 InputEvent readEvent(const JsonCursor& event)
 {
-    using Read = InputEvent (*)(const JsonCursor& event, const JsonCursor& value);
-    constexpr std::pair<const char*, Read> kKinds[] = {
-        {"key", readKey},     {"button", readButton}, {"text", readText},          {"move", readMove},
-        {"wheel", readWheel}, {"resize", readResize}, {"minimised", readMinimize}, {"drop", readDrop},
-        {"close", readClose}};
-    for (const auto& [name, read] : kKinds)
+    for (const Kind& kind : kKinds)
     {
-        if (const auto value = event.find(name))
+        if (const auto value = event.find(kind.name))
         {
-            return read(event, *value);
+            const std::array<std::string_view, 4> keys = {"frame", kind.name, "pressed", "modifiers"};
+            event.allowKeys(std::span(keys).first(kind.is_pressed ? 4 : 2));
+            return kind.read(event, *value);
         }
     }
     throw event.mismatch("an event: key, button, text, move, wheel, resize, minimised, drop or close");
@@ -220,7 +179,7 @@ struct Write
         json["pressed"] = event.pressed;
         addModifiers(json, event.modifiers);
     }
-    void operator()(const TextEvent& event) const { json["text"] = utf8(event.code); }
+    void operator()(const TextEvent& event) const { json["text"] = event.text; }
     void operator()(const MouseMoveEvent& event) const { json["move"] = {event.x, event.y}; }
     void operator()(const MouseButtonEvent& event) const
     {

@@ -8,7 +8,6 @@
 #include "demo/panels/notices.h"
 #include "demo/world/loading.h"
 #include "demo/world/tool.h"
-#include "demo/world/view_state.h"
 #include "demo/world/world.h"
 #include "vk/device.h"
 
@@ -26,17 +25,6 @@ struct PanelState
     bool shows_keys = false;
 };
 
-/// Further values that the view panel shows.
-struct ViewInfo
-{
-    double internal_scale = 1; // in use
-    vk::PresentMode mode = vk::PresentMode::Fifo;
-    double camera_speed = 1;                  // world units a second
-    std::optional<std::uint32_t> samples;     // a pixel, where paths are traced
-    std::optional<std::uint32_t> kept_frames; // since light is kept on voxels, where it is
-    std::uint32_t kept_faces = 0;             // that a frame samples at most
-};
-
 /// Device memory by purpose, in bytes.
 struct MemoryUse
 {
@@ -49,9 +37,6 @@ struct MemoryUse
 
 /// Shows frames a second, Mrays/s, memory, and the device's times by pass.
 void performancePanel(const FrameStats& stats, const MemoryUse& memory);
-
-/// Shows and changes view, light, detail and resolution.
-void viewPanel(ViewState& view, const ViewInfo& info);
 
 /// Shows the world's contents, and its time, which can be changed.
 void scenePanel(const World& world, Timeline& timeline);

@@ -1,24 +1,29 @@
 // SPDX-License-Identifier: MIT
+// The commands of zvo, and their options.
 #pragma once
 
-#include "common/integrator_name.h"
+#include "common/names.h"
 #include "common/scene_options.h"
 #include "core/frame/frame_options.h"
+#include "core/path/path_tracer.h"
 #include "core/scene/scene.h"
 #include "core/tree/tree_data.h"
 #include "io/scene/load_scene.h"
 #include "zvo/types.h"
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
 #include <utility>
-#include <variant>
 #include <vector>
 
 namespace zvo::cli
 {
+
+inline constexpr auto kPathForms =
+    std::to_array<Named<PathForm>>({{"stages", PathForm::Stages}, {"kernel", PathForm::OneKernel}});
 
 /// What a scene is lit by, in pictures with samples.
 struct EnvironmentOptions
@@ -55,6 +60,15 @@ struct RenderOptions
     [[nodiscard]] std::uint32_t sampleCount() const { return samples.value_or(keepsLight(frame.integrator) ? 16 : 64); }
 };
 
+/// `zvo render`: voxelizes scenes and writes a picture of them, or a series. Throws Error.
+void render(const RenderOptions& options);
+
+/// Throws Error{Usage} if options have no effect with the integrator.
+void checkIntegratorOptions(const RenderOptions& options);
+
+/// Throws Error{Usage} if options have no effect on the tree of a file.
+void checkTreeOptions(const RenderOptions& options);
+
 struct VoxelizeOptions
 {
     VoxelOptions voxels;
@@ -62,6 +76,9 @@ struct VoxelizeOptions
     OutputOptions output;
     std::string format; // "morton" or "ply"; empty: the output's extension says
 };
+
+/// `zvo voxelize`: writes a scene's voxels. Throws Error.
+void voxelize(const VoxelizeOptions& options);
 
 struct BuildFileOptions
 {
@@ -71,16 +88,26 @@ struct BuildFileOptions
     OutputOptions output;
 };
 
+/// `zvo build`: voxelizes scenes and writes the tree to a .zvo file. Throws Error.
+void buildFile(const BuildFileOptions& options);
+
 struct InspectOptions
 {
     std::filesystem::path file;
     bool json = false;
 };
 
+/// `zvo inspect`: checks a .zvo file and reports its contents on standard output. Throws Error{Input}.
+void inspect(const InspectOptions& options);
+
 struct ValidateOptions
 {
     std::filesystem::path file;
 };
+
+/// `zvo validate`: checks a .zvo file, and that the nodes of a DAG differ; reports a sound file on standard output.
+/// Throws Error{Input}.
+void validate(const ValidateOptions& options);
 
 struct ConvertOptions
 {
@@ -91,17 +118,17 @@ struct ConvertOptions
     DeviceOptions device;
 };
 
+/// `zvo convert`: reads a tree or voxels and writes them as another kind of file. Throws Error.
+void convert(const ConvertOptions& options);
+
 struct InfoOptions
 {
     std::string device;
     bool json = false;
 };
 
-/// The command line's request: the options of one command, or a text that is printed (help, version).
-using Command = std::variant<std::string, RenderOptions, VoxelizeOptions, BuildFileOptions, InspectOptions,
-                             ValidateOptions, ConvertOptions, InfoOptions>;
-
-/// Reads the command line. Throws Error{Usage}, one line, for anything that is not understood.
-Command parseCommandLine(int argc, const char* const* argv);
+/// `zvo info`: lists the devices on standard output, and the one that would be used. Throws Error{Device} afterwards if
+/// none would be.
+void info(const InfoOptions& options);
 
 } // namespace zvo::cli

@@ -1,0 +1,322 @@
+// SPDX-License-Identifier: MIT
+#include "demo/app/view_settings.h"
+
+#include "common/names.h"
+#include "common/parse.h"
+#include "common/view.h"
+#include "demo/panels/panel_text.h"
+#include "demo/world/resolution_ladder.h"
+#include "zvo/error.h"
+
+#include <fmt/format.h>
+#include <imgui.h>
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+namespace zvo::demo
+{
+
+namespace
+{
+
+using Json = nlohmann::ordered_json;
+
+constexpr const char* kViewGroup = "View";
+constexpr const char* kWindowGroup = "Window";
+constexpr double kPositiveMax = 1000; // of exposures and pixels in the settings' file
+
+// How values are read from an option and from the settings' file, and written to the file.
+template <typename T> struct Form
+{
+    std::function<T(std::string_view option, const std::string& argument)> parse;
+    std::function<T(const JsonCursor& value)> read;
+    std::function<Json(const T& value)> write = [](const T& value) { return Json(value); };
+};
+
+// expected: in errors of the file; empty: the names.
+template <typename T, std::size_t count>
+Form<T> named(const cli::Names<T, count>& names, std::string_view expected = {})
+{
+    return {[&names](std::string_view option, const std::string& argument)
+            { return cli::parseNamed(option, argument, names); },
+            [&names, expected](const JsonCursor& value)
+            {
+                const auto found = std::ranges::find(names, value.isText() ? value.text() : "", &cli::Named<T>::name);
+                if (found == names.end())
+                {
+                    throw value.mismatch(expected.empty() ? "one of " + cli::listOf(names) : std::string(expected));
+                }
+                return found->value;
+            },
+            [&names](const T& value) { return Json(cli::nameOf(names, value)); }};
+}
+
+Form<bool> flag()
+{
+    return {[](std::string_view, const std::string&) { return true; },
+            [](const JsonCursor& value) { return value.flag(); }};
+}
+
+Form<std::uint32_t> wholeUpTo(std::uint32_t most)
+{
+    return {cli::integerIn(0, most), [most](const JsonCursor& value) { return value.whole(0, most); }};
+}
+
+// A number above 0; in the file, 0 is left out.
+Form<float> positive()
+{
+    return {cli::parsePositive,
+            [](const JsonCursor& value) { return static_cast<float>(value.positive(kPositiveMax)); },
+            [](float value) { return value > 0.0F ? Json(double{value}) : Json(); }};
+}
+
+// A factor above 0 and at most 1, or nothing.
+Form<std::optional<double>> scale()
+{
+    const auto parse = [](std::string_view option, const std::string& argument) -> std::optional<double>
+    {
+        const float factor = cli::parsePositive(option, argument);
+        if (factor > 1.0F)
+        {
+            throw Error(ErrorCode::Usage,
+                        fmt::format("{} {}: expected a number above 0 and at most 1", option, argument));
+        }
+        return double{factor};
+    };
+    return {parse, [](const JsonCursor& value) { return std::optional(value.positive(1)); },
+            [](const std::optional<double>& factor) { return factor ? Json(*factor) : Json(); }};
+}
+
+// Of any length, but not 0.
+Form<glm::dvec3> direction()
+{
+    const auto read = [](const JsonCursor& value)
+    {
+        static_cast<void>(value.direction()); // checks that not all numbers are 0
+        return value.vector();
+    };
+    return {cli::parseDirection, read, [](const glm::dvec3& value) { return Json{value.x, value.y, value.z}; }};
+}
+
+// of: the setting's place in a ViewState.
+template <typename T, typename Of>
+ViewSetting setting(const char* key, const Of& of, const Form<T>& form, ViewSetting::Option option,
+                    void (*show)(ViewState&, const ViewInfo&), bool is_of_light = false)
+{
+    const auto parse = [=](std::string_view name, const std::string& argument) -> ViewChange
+    { return [of, value = form.parse(name, argument)](ViewState& view) { of(view) = value; }; };
+    return {key,
+            std::move(option),
+            parse,
+            [=](ViewState& view, const JsonCursor& value) { of(view) = form.read(value); },
+            [=](const ViewState& view) { return form.write(of(view)); },
+            show,
+            is_of_light};
+}
+
+// A legend of the colours of the iterations view (trace/views.comp).
+void iterationsLegend()
+{
+    constexpr std::array kCounts = {1, 3, 7, 15, 31, 63, 127};
+    const auto heat = [](float x)
+    {
+        const float blue = x < 0.5F ? 4 * x * (1 - x) - 2 * std::max(x - 0.25F, 0.0F) : 4 * x - 3;
+        return ImVec4(std::clamp(3 * x - 0.75F, 0.0F, 1.0F), std::clamp(3 * x - 1.75F, 0.0F, 1.0F),
+                      std::clamp(blue, 0.0F, 1.0F), 1.0F);
+    };
+    for (std::size_t i = 0; i < kCounts.size(); ++i)
+    {
+        if (i != 0)
+        {
+            ImGui::SameLine();
+        }
+        ImGui::ColorButton(fmt::format("{} iterations", kCounts[i]).c_str(), heat(static_cast<float>(i + 1) / 7.0F),
+                           ImGuiColorEditFlags_NoAlpha | ImGuiColorEditFlags_NoInputs | ImGuiColorEditFlags_NoPicker);
+        ImGui::SameLine();
+        ImGui::Text("%d", kCounts[i]);
+    }
+}
+
+void showView(ViewState& view, const ViewInfo&)
+{
+    View& shown = view.frame.trace.view;
+    if (ImGui::BeginCombo("view", std::string(cli::nameOf(cli::kViews, shown)).c_str()))
+    {
+        for (const cli::Named<View>& named : cli::kViews)
+        {
+            if (ImGui::Selectable(std::string(named.name).c_str(), named.value == shown))
+            {
+                shown = named.value;
+            }
+        }
+        ImGui::EndCombo();
+    }
+    if (shown == View::Iterations)
+    {
+        iterationsLegend();
+    }
+}
+
+void showIntegrator(ViewState& view, const ViewInfo& info)
+{
+    constexpr std::array kNames = {"primary rays", "paths", "kept on voxels", "through cones"};
+    int chosen = static_cast<int>(view.frame.integrator);
+    if (ImGui::Combo("light", &chosen, kNames.data(), static_cast<int>(kNames.size())))
+    {
+        view.frame.integrator = static_cast<Integrator>(chosen);
+    }
+    if (info.samples)
+    {
+        tell(fmt::format("{} paths a pixel", *info.samples));
+    }
+    if (info.kept_frames)
+    {
+        tell(fmt::format("light of {} frames, {} faces a frame at most", *info.kept_frames, info.kept_faces));
+    }
+}
+
+void showDenoise(ViewState& view, const ViewInfo& info)
+{
+    if (info.samples)
+    {
+        ImGui::Checkbox("denoise", &view.frame.denoise);
+    }
+}
+
+void showShadows(ViewState& view, const ViewInfo&)
+{
+    ImGui::Checkbox(view.frame.integrator == Integrator::Primary ? "shadows" : "sun", &view.frame.trace.shadows);
+}
+
+void showOcclusion(ViewState& view, const ViewInfo&)
+{
+    int rays = static_cast<int>(view.frame.trace.occlusion_rays);
+    if (ImGui::SliderInt("occlusion rays", &rays, 0, static_cast<int>(kOcclusionRaysMax), "%d",
+                         ImGuiSliderFlags_AlwaysClamp))
+    {
+        view.frame.trace.occlusion_rays = static_cast<std::uint32_t>(rays);
+    }
+}
+
+void showExposure(ViewState& view, const ViewInfo&)
+{
+    ImGui::SliderFloat("exposure", &view.frame.exposure.factor, 0.05F, 20.0F, "%.2f",
+                       ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp);
+}
+
+void showDetail(ViewState& view, const ViewInfo&)
+{
+    ImGui::SliderFloat("detail, pixels", &view.frame.trace.detail_pixels, 0.0F, 16.0F, "%.1f",
+                       ImGuiSliderFlags_AlwaysClamp);
+}
+
+void showResolution(ViewState& view, const ViewInfo& info)
+{
+    const std::string current = view.internal_scale ? fmt::format("{:g}", *view.internal_scale)
+                                                    : fmt::format("automatic ({:g})", info.internal_scale);
+    if (ImGui::BeginCombo("resolution", current.c_str()))
+    {
+        if (ImGui::Selectable("automatic", !view.internal_scale))
+        {
+            view.internal_scale.reset();
+        }
+        for (const double scale : ResolutionLadder::kScales)
+        {
+            if (ImGui::Selectable(fmt::format("{:g}", scale).c_str(), view.internal_scale == scale))
+            {
+                view.internal_scale = scale;
+            }
+        }
+        ImGui::EndCombo();
+    }
+}
+
+void showPresentMode(ViewState& view, const ViewInfo& info)
+{
+    constexpr std::array kNames = {"fifo (vsync)", "mailbox", "immediate"};
+    int chosen = static_cast<int>(view.present_mode);
+    if (ImGui::Combo("present", &chosen, kNames.data(), static_cast<int>(kNames.size())))
+    {
+        view.present_mode = static_cast<vk::PresentMode>(chosen);
+    }
+    if (info.mode != view.present_mode)
+    {
+        ImGui::SameLine();
+        tell("(fifo: the window has no other)");
+    }
+}
+
+std::vector<ViewSetting> makeSettings()
+{
+    return {
+        setting(
+            "view", [](auto& view) -> auto& { return view.frame.trace.view; }, named(cli::kViews, "the name of a view"),
+            {kViewGroup, "VIEW", cli::viewHelp()}, showView),
+        setting(
+            "integrator", [](auto& view) -> auto& { return view.frame.integrator; }, named(cli::kIntegrators),
+            {kViewGroup, cli::listOf(cli::kIntegrators, "|"), cli::kIntegratorHelp}, showIntegrator, true),
+        setting(
+            "denoise", [](auto& view) -> auto& { return view.frame.denoise; }, flag(),
+            {kViewGroup, "", "smooth the noise of few paths, but not edges"}, showDenoise, true),
+        setting(
+            "shadows", [](auto& view) -> auto& { return view.frame.trace.shadows; }, flag(), {}, showShadows, true),
+        setting(
+            "occlusion", [](auto& view) -> auto& { return view.frame.trace.occlusion_rays; },
+            wholeUpTo(kOcclusionRaysMax),
+            {kViewGroup, "RAYS", "rays a pixel that find how much of the sky it sees (default 0)"}, showOcclusion,
+            true),
+        setting(
+            "sun", [](auto& view) -> auto& { return view.frame.trace.to_sun; }, direction(),
+            {kViewGroup, "x,y,z", "direction to the sun"}, nullptr),
+        setting(
+            "exposure", [](auto& view) -> auto& { return view.frame.exposure.factor; }, positive(),
+            {kViewGroup, "FACTOR", "brightness (default 1)"}, showExposure, true),
+        setting(
+            "detail", [](auto& view) -> auto& { return view.frame.trace.detail_pixels; }, positive(),
+            {kViewGroup, "PIXELS", "rays stop at octree nodes up to this many pixels wide"}, showDetail),
+        setting(
+            "internal_scale", [](auto& view) -> auto& { return view.internal_scale; }, scale(),
+            {kWindowGroup, "FACTOR",
+             "trace pictures this much smaller than the window (default 1; on CPU devices whatever is fast)"},
+            showResolution),
+        setting(
+            "present", [](auto& view) -> auto& { return view.present_mode; }, named(cli::kPresentModes),
+            {kWindowGroup, cli::listOf(cli::kPresentModes, "|"), "how pictures wait for the screen (default fifo)"},
+            showPresentMode),
+    };
+}
+
+} // namespace
+
+std::string ViewSetting::optionName() const
+{
+    std::string name = "--" + key;
+    std::ranges::replace(name, '_', '-');
+    return name;
+}
+
+const std::vector<ViewSetting>& viewSettings()
+{
+    static const std::vector<ViewSetting> settings = makeSettings();
+    return settings;
+}
+
+void viewPanel(ViewState& view, const ViewInfo& info)
+{
+    if (!ImGui::CollapsingHeader("View", ImGuiTreeNodeFlags_DefaultOpen))
+    {
+        return;
+    }
+    for (const ViewSetting& setting : viewSettings())
+    {
+        if (setting.show != nullptr && (view.frame.trace.view == View::Color || !setting.is_of_light))
+        {
+            setting.show(view, info);
+        }
+    }
+    tell(fmt::format("speed {:.3g} units/s", info.camera_speed));
+}
+
+} // namespace zvo::demo
