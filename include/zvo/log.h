@@ -1,16 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "zvo/enums.h"
+
 namespace zvo
 {
-
-/// What a message is about. Failures are no messages: they are thrown.
-enum class LogSeverity : int
-{
-    Debug,   ///< what zvo does: kernels compiled, memory taken and returned
-    Info,    ///< what it does without, as the device has it not
-    Warning, ///< what is refused, and what may be wrong
-};
 
 /// Gets one message without a line's end, in UTF-8, that lives until it returns; on the thread that calls zvo, within
 /// that call. It must not throw, nor call zvo. user: LogCallback::user.

@@ -1,14 +1,11 @@
 // SPDX-License-Identifier: MIT
-// Device memory that a host hands out in place of the driver.
+// Device memory that a host hands out in place of the driver. Both interfaces have these structs.
 #pragma once
 
 #include <vulkan/vulkan_core.h>
 
-namespace zvo
-{
-
 /// Memory that zvo asks a host for: a block for many buffers and images, or what one big buffer takes.
-struct MemoryRequest
+typedef struct ZvoMemoryRequest
 {
     const char* name; // what it is for; lives for the call
     /// memoryTypeBits names one memory type; if the host refuses the request, zvo asks for the next suitable type. size
@@ -19,28 +16,39 @@ struct MemoryRequest
     VkMemoryPropertyFlags preferred; // properties that zvo prefers, and the type may have
     VkBool32 map;                    // the range must be mapped: the type is visible to the host
     VkBool32 device_address;         // allocate with VK_MEMORY_ALLOCATE_DEVICE_ADDRESS_BIT
-};
+} ZvoMemoryRequest;
 
 /// The range that a host hands out for a request, as large as requested.
-struct MemoryRange
+typedef struct ZvoMemoryRange
 {
     VkDeviceMemory memory;
     VkDeviceSize offset; // bytes; a multiple of the request's alignment
-    void* mapped;        // host address of the range, mapped until it is released; or null, see MemoryRequest::map
+    void* mapped;        // host address of the range, mapped until it is released; or null, see ZvoMemoryRequest::map
     void* cookie;        // the host's own
-};
+} ZvoMemoryRange;
 
 /// A host's allocator. zvo divides the blocks that it gets into its own small ranges, counts the blocks against its
 /// memory budget, and returns each block as it got it. The functions are called on the thread that calls zvo; they must
-/// not throw, nor call zvo.
-struct MemoryCallbacks
+/// not throw, unwind by longjmp, nor call zvo.
+typedef struct ZvoMemoryCallbacks
 {
-    void* user = nullptr;
+    void* user;
     /// Fills range and returns VK_SUCCESS. After VK_ERROR_OUT_OF_DEVICE_MEMORY or VK_ERROR_OUT_OF_HOST_MEMORY zvo asks
-    /// for less, or for another type, and in the end throws Error{Memory}. A null pointer: zvo asks the driver.
-    VkResult (*allocate)(void* user, const MemoryRequest* request, MemoryRange* range) = nullptr;
+    /// for less, or for another type, and in the end fails for lack of memory. A null pointer: zvo asks the driver.
+    VkResult (*allocate)(void* user, const ZvoMemoryRequest* request, ZvoMemoryRange* range);
     /// Tells that nothing uses the range any more. Must not be null where allocate is not.
-    void (*release)(void* user, const MemoryRange* range) = nullptr;
-};
+    void (*release)(void* user, const ZvoMemoryRange* range);
+} ZvoMemoryCallbacks;
+
+#ifdef __cplusplus
+
+namespace zvo
+{
+
+using MemoryRequest = ZvoMemoryRequest;
+using MemoryRange = ZvoMemoryRange;
+using MemoryCallbacks = ZvoMemoryCallbacks;
 
 } // namespace zvo
+
+#endif

@@ -14,7 +14,7 @@
 namespace zvo
 {
 
-inline constexpr std::uint32_t kNoTexture = UINT32_MAX;
+inline constexpr std::uint32_t kNoTexture = ZVO_NO_TEXTURE;
 
 /// A picture: width * height * 4 bytes, rows from the top, RGBA with straight alpha, colour sRGB encoded.
 struct TextureInfo

@@ -68,70 +68,67 @@ struct TreeBuildInfo
     bool keep_sums = false; // for a DynamicTree with MergeRule::Average: 32 bytes a voxel more. Only with Bytes8
 };
 
-/// Voxelizes a model and builds its octree in steps. Between steps zvo reads sizes that only the device knows, and
-/// allocates exactly what is needed. Nothing waits: a step is recorded into a frame, and the next step into a frame
-/// that begins after Context::frameDone() of the first. There are about five steps, and two more for each size that was
-/// guessed too low.
+/// Work that makes a tree in steps. Between steps zvo reads sizes that only the device knows, and allocates exactly
+/// what is needed. Nothing waits: a step is recorded into a frame, and the next step into a frame that begins after
+/// Context::frameDone() of the first.
 ///
-///     while (build.record(recorder)) { submit; begin the next frame }
-///     Tree tree = build.take();
+///     while (job.record(recorder)) { submit; begin the next frame }
+///     Tree tree = job.take();
 ///
-/// The result has the same bytes on every device, those that `zvo build` writes. First stages: ALL_TRANSFER,
-/// COMPUTE_SHADER and DRAW_INDIRECT; last stages: COMPUTE_SHADER and ALL_TRANSFER; on resources of the build and of the
-/// model.
-class ZVO_API TreeBuild
+/// The tree has the same bytes on every device, those that `zvo build` writes. First stages: ALL_TRANSFER,
+/// COMPUTE_SHADER and DRAW_INDIRECT; last stages: COMPUTE_SHADER and ALL_TRANSFER; on resources of the job and of its
+/// source.
+class ZVO_API TreeJob
 {
 public:
-    /// Throws Error{Usage} for a depth out of range, a grid whose corners are not finite, a voxel size that is not
-    /// finite and above 0, attributes of a model that was uploaded without them, and a model that was lost.
-    TreeBuild(Context& context, const Model& model, const TreeBuildInfo& info);
-    ~TreeBuild();
-    TreeBuild(TreeBuild&&) noexcept;
-    TreeBuild& operator=(TreeBuild&&) noexcept;
+    ~TreeJob();
+    TreeJob(TreeJob&&) noexcept;
+    TreeJob& operator=(TreeJob&&) noexcept;
 
     /// Records the next step, unless the device has not finished the last one. Returns false when there is no next
     /// step: the tree is complete. Throws Error{Memory} when the budget or the device's memory does not suffice; the
     /// same step can be tried again, unless the error came from the results of the last step (isBroken()). Throws
-    /// Error{Usage} when the model was lost with its frame; then the build has failed.
+    /// Error{Usage} when the source was lost with its frame; then the job has failed.
     bool record(Recorder& recorder);
 
     /// Whether the tree is complete. Like record(), this reads the results of the last step, and throws as record().
     [[nodiscard]] bool isDone();
 
-    /// Whether the build has failed for good.
+    /// Whether the job has failed for good.
     [[nodiscard]] bool isBroken() const;
 
     /// Hands out the tree. Call it once, when isDone() returns true.
     [[nodiscard]] Tree take();
 
-    /// Triangles that were left out, by reason: "nonfinite", "out_of_range", "outside", "zero_area".
+    /// A model's triangles that were left out, by reason: "nonfinite", "out_of_range", "outside", "zero_area".
     [[nodiscard]] const std::map<std::string, std::uint64_t>& dropped() const;
 
+    struct Impl; // only for the library
+
+protected:
+    ZVO_LOCAL TreeJob(std::unique_ptr<Impl> impl, const char* name); // only for the library
+
 private:
-    struct Impl;
     std::unique_ptr<Impl> m_impl;
+    const char* m_name; // in messages
 };
 
-/// Makes a DAG of an octree, in steps like those of TreeBuild: about three, and one more for each table that was too
-/// small. The result has the same bytes on every device.
-class ZVO_API TreeCompression
+/// Voxelizes a model and builds its octree: about five steps, and two more for each size that was guessed too low.
+class ZVO_API TreeBuild : public TreeJob
+{
+public:
+    /// Throws Error{Usage} for a depth out of range, a grid whose corners are not finite, a voxel size that is not
+    /// finite and above 0, attributes of a model that was uploaded without them, and a model that was lost.
+    TreeBuild(Context& context, const Model& model, const TreeBuildInfo& info);
+};
+
+/// Makes a DAG of an octree: about three steps, and one more for each table that was too small.
+class ZVO_API TreeCompression : public TreeJob
 {
 public:
     /// Takes the octree over. Its nodes are freed when the DAG is complete. Throws Error{Usage} for a tree that is a
     /// DAG already.
     TreeCompression(Context& context, Tree&& octree);
-    ~TreeCompression();
-    TreeCompression(TreeCompression&&) noexcept;
-    TreeCompression& operator=(TreeCompression&&) noexcept;
-
-    bool record(Recorder& recorder);     ///< as TreeBuild's
-    [[nodiscard]] bool isDone();         ///< likewise
-    [[nodiscard]] bool isBroken() const; ///< likewise
-    [[nodiscard]] Tree take();           ///< likewise
-
-private:
-    struct Impl;
-    std::unique_ptr<Impl> m_impl;
 };
 
 } // namespace zvo

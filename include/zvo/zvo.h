@@ -15,7 +15,9 @@
 // that destroy.
 #pragma once
 
+#include "zvo/enums.h"
 #include "zvo/export.h"
+#include "zvo/memory.h"
 #include "zvo/version.h"
 
 #include <vulkan/vulkan_core.h>
@@ -30,6 +32,12 @@
 #define ZVO_C_API ZVO_API
 #endif
 
+/// The value of a struct that begins with its size.
+#define ZVO_STRUCT_INIT(Struct, ...)                                                                                   \
+    {                                                                                                                  \
+        sizeof(Struct), __VA_ARGS__                                                                                    \
+    }
+
 // Handles. One context's are used by one thread at a time, and destroyed before it.
 typedef struct ZvoDeviceReport ZvoDeviceReport;
 typedef struct ZvoFeatureStorage ZvoFeatureStorage;
@@ -37,112 +45,11 @@ typedef struct ZvoContext ZvoContext;
 typedef struct ZvoRecorder ZvoRecorder;
 typedef struct ZvoModel ZvoModel;
 typedef struct ZvoTree ZvoTree;
-typedef struct ZvoTreeBuild ZvoTreeBuild;
-typedef struct ZvoTreeCompression ZvoTreeCompression;
+typedef struct ZvoTreeJob ZvoTreeJob;
 typedef struct ZvoDynamicTree ZvoDynamicTree;
 typedef struct ZvoEnvironment ZvoEnvironment;
 typedef struct ZvoTracer ZvoTracer;
 typedef struct ZvoKeptLight ZvoKeptLight;
-
-// Enumerations. Their types are integers of a fixed size, so that every value is one that can be refused.
-
-typedef int32_t ZvoResult; // zvo::ErrorCode
-enum
-{
-    ZVO_OK = 0,
-    ZVO_ERROR_OTHER = 1,  ///< a failure that is none of the below, such as a lost device
-    ZVO_ERROR_USAGE = 2,  ///< the caller asked for something that does not exist or contradicts itself
-    ZVO_ERROR_INPUT = 3,  ///< a file that is missing, broken or not supported
-    ZVO_ERROR_OUTPUT = 4, ///< a file that could not be written
-    ZVO_ERROR_DEVICE = 5, ///< no Vulkan device that will do
-    ZVO_ERROR_MEMORY = 6  ///< the memory limit, or the memory of device or host, does not suffice
-};
-
-typedef uint32_t ZvoLogSeverity; // zvo::LogSeverity
-enum
-{
-    ZVO_LOG_DEBUG = 0,
-    ZVO_LOG_INFO = 1,
-    ZVO_LOG_WARNING = 2
-};
-
-typedef uint32_t ZvoCoverage; // zvo::Coverage
-enum
-{
-    ZVO_COVERAGE_CONSERVATIVE = 0,
-    ZVO_COVERAGE_THIN = 1
-};
-
-typedef uint32_t ZvoTreeStructure; // zvo::TreeStructure
-enum
-{
-    ZVO_TREE_STRUCTURE_SVO = 1,
-    ZVO_TREE_STRUCTURE_SVDAG = 2
-};
-
-typedef uint32_t ZvoAttributeFormat; // zvo::AttributeFormat
-enum
-{
-    ZVO_ATTRIBUTE_FORMAT_NONE = 0,
-    ZVO_ATTRIBUTE_FORMAT_BYTES4 = 1,
-    ZVO_ATTRIBUTE_FORMAT_BYTES8 = 2,
-    ZVO_ATTRIBUTE_FORMAT_BLOCKS = 3
-};
-
-typedef uint32_t ZvoMergeRule; // zvo::MergeRule
-enum
-{
-    ZVO_MERGE_RULE_AVERAGE = 0,
-    ZVO_MERGE_RULE_DYNAMIC_WINS = 1,
-    ZVO_MERGE_RULE_STATIC_WINS = 2
-};
-
-typedef uint32_t ZvoView; // zvo::View
-enum
-{
-    ZVO_VIEW_COLOR = 0,
-    ZVO_VIEW_ALBEDO = 1,
-    ZVO_VIEW_NORMAL = 2,
-    ZVO_VIEW_DEPTH = 3,
-    ZVO_VIEW_LEVEL = 4,
-    ZVO_VIEW_ITERATIONS = 5,
-    ZVO_VIEW_VOXEL = 6,
-    ZVO_VIEW_BRICKS = 7,
-    ZVO_VIEW_ORIGIN = 8
-};
-
-typedef uint32_t ZvoBrushShape; // zvo::BrushShape
-enum
-{
-    ZVO_BRUSH_SHAPE_SPHERE = 0,
-    ZVO_BRUSH_SHAPE_BOX = 1
-};
-
-typedef uint32_t ZvoBrushAction; // zvo::BrushAction
-enum
-{
-    ZVO_BRUSH_ACTION_CARVE = 0,
-    ZVO_BRUSH_ACTION_FILL = 1,
-    ZVO_BRUSH_ACTION_PAINT = 2
-};
-
-typedef uint32_t ZvoWrapMode; // zvo::WrapMode
-enum
-{
-    ZVO_WRAP_MODE_REPEAT = 0,
-    ZVO_WRAP_MODE_MIRRORED_REPEAT = 1,
-    ZVO_WRAP_MODE_CLAMP_TO_EDGE = 2
-};
-
-typedef uint32_t ZvoAlphaMode; // zvo::AlphaMode
-enum
-{
-    ZVO_ALPHA_MODE_OPAQUE = 0,
-    ZVO_ALPHA_MODE_MASK = 1,
-    ZVO_ALPHA_MODE_BLEND = 2
-};
-
-#define ZVO_NO_TEXTURE UINT32_MAX
 
 // Structs without a size, which stay as they are.
 
@@ -174,34 +81,6 @@ typedef struct ZvoLogCallback
     void (*function)(void* user, ZvoLogSeverity severity, const char* message);
     void* user;
 } ZvoLogCallback;
-
-/// As zvo::MemoryRequest.
-typedef struct ZvoMemoryRequest
-{
-    const char* name;
-    VkMemoryRequirements requirements;
-    VkMemoryPropertyFlags required;
-    VkMemoryPropertyFlags preferred;
-    VkBool32 map;
-    VkBool32 device_address;
-} ZvoMemoryRequest;
-
-/// As zvo::MemoryRange.
-typedef struct ZvoMemoryRange
-{
-    VkDeviceMemory memory;
-    VkDeviceSize offset;
-    void* mapped;
-    void* cookie;
-} ZvoMemoryRange;
-
-/// As zvo::MemoryCallbacks; null: zvo asks the driver. They must not throw, unwind by longjmp, nor call zvo.
-typedef struct ZvoMemoryCallbacks
-{
-    void* user;
-    VkResult (*allocate)(void* user, const ZvoMemoryRequest* request, ZvoMemoryRange* range);
-    void (*release)(void* user, const ZvoMemoryRange* range);
-} ZvoMemoryCallbacks;
 
 // Errors and version.
 
@@ -236,9 +115,7 @@ typedef struct ZvoDeviceInfo
 } ZvoDeviceInfo;
 
 #define ZVO_DEVICE_INFO_INIT                                                                                           \
-    {                                                                                                                  \
-        sizeof(ZvoDeviceInfo), VK_NULL_HANDLE, NULL, NULL, NULL, NULL, 0, 0, 0, 0, 0, 0, 0, 0, VK_FALSE, 0             \
-    }
+    ZVO_STRUCT_INIT(ZvoDeviceInfo, VK_NULL_HANDLE, NULL, NULL, NULL, NULL, 0, 0, 0, 0, 0, 0, 0, 0, VK_FALSE, 0)
 
 typedef uint32_t ZvoReportList; // of zvo::DeviceReport
 enum
@@ -267,10 +144,7 @@ typedef struct ZvoOptionalFeatures
     uint32_t reserved;
 } ZvoOptionalFeatures;
 
-#define ZVO_OPTIONAL_FEATURES_INIT                                                                                     \
-    {                                                                                                                  \
-        sizeof(ZvoOptionalFeatures), VK_FALSE, VK_FALSE, VK_FALSE, 0                                                   \
-    }
+#define ZVO_OPTIONAL_FEATURES_INIT ZVO_STRUCT_INIT(ZvoOptionalFeatures, VK_FALSE, VK_FALSE, VK_FALSE, 0)
 
 /// The storage lives for as long as the VkDeviceCreateInfo that it serves is used.
 ZVO_C_API ZvoResult zvoFeatureStorageCreate(ZvoFeatureStorage** storage);
@@ -309,10 +183,8 @@ typedef struct ZvoContextInfo
 } ZvoContextInfo;
 
 #define ZVO_CONTEXT_INFO_INIT                                                                                          \
-    {                                                                                                                  \
-        sizeof(ZvoContextInfo), NULL, VK_NULL_HANDLE, VK_NULL_HANDLE, VK_NULL_HANDLE, 0, 0, NULL, NULL, 0, 0, NULL,    \
-            NULL, NULL, VK_NULL_HANDLE, {NULL, NULL, NULL}, UINT64_MAX, {NULL, NULL}, 0, 0, NULL                       \
-    }
+    ZVO_STRUCT_INIT(ZvoContextInfo, NULL, VK_NULL_HANDLE, VK_NULL_HANDLE, VK_NULL_HANDLE, 0, 0, NULL, NULL, 0, 0,      \
+                    NULL, NULL, NULL, VK_NULL_HANDLE, {NULL, NULL, NULL}, UINT64_MAX, {NULL, NULL}, 0, 0, NULL)
 
 typedef struct ZvoMemoryUse
 {
@@ -322,10 +194,7 @@ typedef struct ZvoMemoryUse
     uint64_t peak_held;
 } ZvoMemoryUse;
 
-#define ZVO_MEMORY_USE_INIT                                                                                            \
-    {                                                                                                                  \
-        sizeof(ZvoMemoryUse), 0, 0, 0                                                                                  \
-    }
+#define ZVO_MEMORY_USE_INIT ZVO_STRUCT_INIT(ZvoMemoryUse, 0, 0, 0)
 
 typedef struct ZvoPassTime
 {
@@ -334,10 +203,7 @@ typedef struct ZvoPassTime
     double ms;
 } ZvoPassTime;
 
-#define ZVO_PASS_TIME_INIT                                                                                             \
-    {                                                                                                                  \
-        sizeof(ZvoPassTime), NULL, 0                                                                                   \
-    }
+#define ZVO_PASS_TIME_INIT ZVO_STRUCT_INIT(ZvoPassTime, NULL, 0)
 
 ZVO_C_API ZvoResult zvoContextCreate(const ZvoContextInfo* info, ZvoContext** context);
 ZVO_C_API void zvoContextDestroy(ZvoContext* context);
@@ -369,10 +235,7 @@ typedef struct ZvoTextureInfo
     ZvoWrapMode wrap_v;
 } ZvoTextureInfo;
 
-#define ZVO_TEXTURE_INFO_INIT                                                                                          \
-    {                                                                                                                  \
-        sizeof(ZvoTextureInfo), NULL, 0, 0, 0, ZVO_WRAP_MODE_REPEAT, ZVO_WRAP_MODE_REPEAT                              \
-    }
+#define ZVO_TEXTURE_INFO_INIT ZVO_STRUCT_INIT(ZvoTextureInfo, NULL, 0, 0, 0, ZVO_WRAP_MODE_REPEAT, ZVO_WRAP_MODE_REPEAT)
 
 /// As zvo::MaterialInfo.
 typedef struct ZvoMaterialInfo
@@ -388,10 +251,8 @@ typedef struct ZvoMaterialInfo
 } ZvoMaterialInfo;
 
 #define ZVO_MATERIAL_INFO_INIT                                                                                         \
-    {                                                                                                                  \
-        sizeof(ZvoMaterialInfo), {1, 1, 1, 1}, ZVO_NO_TEXTURE, {0, 0, 0}, ZVO_NO_TEXTURE, ZVO_ALPHA_MODE_OPAQUE, 0.5F, \
-            0                                                                                                          \
-    }
+    ZVO_STRUCT_INIT(ZvoMaterialInfo, {1, 1, 1, 1}, ZVO_NO_TEXTURE, {0, 0, 0}, ZVO_NO_TEXTURE, ZVO_ALPHA_MODE_OPAQUE,   \
+                    0.5F, 0)
 
 /// As zvo::MeshInfo.
 typedef struct ZvoMeshInfo
@@ -408,10 +269,7 @@ typedef struct ZvoMeshInfo
     uint32_t reserved;
 } ZvoMeshInfo;
 
-#define ZVO_MESH_INFO_INIT                                                                                             \
-    {                                                                                                                  \
-        sizeof(ZvoMeshInfo), NULL, NULL, NULL, NULL, 0, NULL, 0, 0, 0                                                  \
-    }
+#define ZVO_MESH_INFO_INIT ZVO_STRUCT_INIT(ZvoMeshInfo, NULL, NULL, NULL, NULL, 0, NULL, 0, 0, 0)
 
 /// As zvo::InstanceInfo.
 typedef struct ZvoInstanceInfo
@@ -422,10 +280,7 @@ typedef struct ZvoInstanceInfo
     uint32_t reserved;
 } ZvoInstanceInfo;
 
-#define ZVO_INSTANCE_INFO_INIT                                                                                         \
-    {                                                                                                                  \
-        sizeof(ZvoInstanceInfo), {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}, 0, 0                                \
-    }
+#define ZVO_INSTANCE_INFO_INIT ZVO_STRUCT_INIT(ZvoInstanceInfo, {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}, 0, 0)
 
 /// As zvo::ModelInfo.
 typedef struct ZvoModelInfo
@@ -443,10 +298,7 @@ typedef struct ZvoModelInfo
     float emission_scale; // negative: that of the brightest material
 } ZvoModelInfo;
 
-#define ZVO_MODEL_INFO_INIT                                                                                            \
-    {                                                                                                                  \
-        sizeof(ZvoModelInfo), NULL, NULL, NULL, NULL, 0, 0, 0, 0, VK_TRUE, -1                                          \
-    }
+#define ZVO_MODEL_INFO_INIT ZVO_STRUCT_INIT(ZvoModelInfo, NULL, NULL, NULL, NULL, 0, 0, 0, 0, VK_TRUE, -1)
 
 typedef struct ZvoModelStats
 {
@@ -456,10 +308,7 @@ typedef struct ZvoModelStats
     uint32_t reserved;
 } ZvoModelStats;
 
-#define ZVO_MODEL_STATS_INIT                                                                                           \
-    {                                                                                                                  \
-        sizeof(ZvoModelStats), 0, 0, 0                                                                                 \
-    }
+#define ZVO_MODEL_STATS_INIT ZVO_STRUCT_INIT(ZvoModelStats, 0, 0, 0)
 
 ZVO_C_API ZvoResult zvoModelCreate(ZvoRecorder* recorder, const ZvoModelInfo* info, ZvoModel** model);
 ZVO_C_API void zvoModelDestroy(ZvoModel* model); // what was made of it may go on using it
@@ -482,9 +331,7 @@ typedef struct ZvoTreeInfo
 } ZvoTreeInfo;
 
 #define ZVO_TREE_INFO_INIT                                                                                             \
-    {                                                                                                                  \
-        sizeof(ZvoTreeInfo), ZVO_TREE_STRUCTURE_SVO, ZVO_ATTRIBUTE_FORMAT_NONE, ZVO_GRID_INIT, 0, 0, 0, 0              \
-    }
+    ZVO_STRUCT_INIT(ZvoTreeInfo, ZVO_TREE_STRUCTURE_SVO, ZVO_ATTRIBUTE_FORMAT_NONE, ZVO_GRID_INIT, 0, 0, 0, 0)
 
 /// path: in UTF-8.
 ZVO_C_API ZvoResult zvoTreeFromFile(ZvoRecorder* recorder, const char* path, ZvoTree** tree);
@@ -493,7 +340,7 @@ ZVO_C_API void zvoTreeDestroy(ZvoTree* tree);
 ZVO_C_API ZvoResult zvoTreeInfo(const ZvoTree* tree, ZvoTreeInfo* info);
 ZVO_C_API ZvoResult zvoTreeAddress(const ZvoTree* tree, uint64_t* address);
 
-// zvo::TreeBuild.
+// zvo::TreeJob: a zvo::TreeBuild or a zvo::TreeCompression.
 
 /// As zvo::TreeBuildInfo.
 typedef struct ZvoTreeBuildInfo
@@ -506,9 +353,7 @@ typedef struct ZvoTreeBuildInfo
 } ZvoTreeBuildInfo;
 
 #define ZVO_TREE_BUILD_INFO_INIT                                                                                       \
-    {                                                                                                                  \
-        sizeof(ZvoTreeBuildInfo), ZVO_GRID_INIT, ZVO_COVERAGE_THIN, ZVO_ATTRIBUTE_FORMAT_BYTES8, VK_FALSE              \
-    }
+    ZVO_STRUCT_INIT(ZvoTreeBuildInfo, ZVO_GRID_INIT, ZVO_COVERAGE_THIN, ZVO_ATTRIBUTE_FORMAT_BYTES8, VK_FALSE)
 
 /// Triangles that were left out, by reason.
 typedef struct ZvoDroppedTriangles
@@ -520,31 +365,21 @@ typedef struct ZvoDroppedTriangles
     uint64_t zero_area;
 } ZvoDroppedTriangles;
 
-#define ZVO_DROPPED_TRIANGLES_INIT                                                                                     \
-    {                                                                                                                  \
-        sizeof(ZvoDroppedTriangles), 0, 0, 0, 0                                                                        \
-    }
+#define ZVO_DROPPED_TRIANGLES_INIT ZVO_STRUCT_INIT(ZvoDroppedTriangles, 0, 0, 0, 0)
 
 ZVO_C_API ZvoResult zvoTreeBuildCreate(ZvoContext* context, const ZvoModel* model, const ZvoTreeBuildInfo* info,
-                                       ZvoTreeBuild** build);
-ZVO_C_API void zvoTreeBuildDestroy(ZvoTreeBuild* build);
-ZVO_C_API ZvoResult zvoTreeBuildRecord(ZvoTreeBuild* build, ZvoRecorder* recorder, VkBool32* has_more);
-ZVO_C_API ZvoResult zvoTreeBuildIsDone(ZvoTreeBuild* build, VkBool32* is_done);
-ZVO_C_API ZvoResult zvoTreeBuildIsBroken(const ZvoTreeBuild* build, VkBool32* is_broken);
-ZVO_C_API ZvoResult zvoTreeBuildTake(ZvoTreeBuild* build, ZvoTree** tree);
-ZVO_C_API ZvoResult zvoTreeBuildDropped(const ZvoTreeBuild* build, ZvoDroppedTriangles* dropped);
-
-// zvo::TreeCompression.
+                                       ZvoTreeJob** build);
 
 /// Takes the octree over: where this succeeds, its handle is gone. Where it fails, the host destroys it, and using
 /// it for anything else may be ZVO_ERROR_USAGE: what it held can be gone.
-ZVO_C_API ZvoResult zvoTreeCompressionCreate(ZvoContext* context, ZvoTree* octree, ZvoTreeCompression** compression);
-ZVO_C_API void zvoTreeCompressionDestroy(ZvoTreeCompression* compression);
-ZVO_C_API ZvoResult zvoTreeCompressionRecord(ZvoTreeCompression* compression, ZvoRecorder* recorder,
-                                             VkBool32* has_more);
-ZVO_C_API ZvoResult zvoTreeCompressionIsDone(ZvoTreeCompression* compression, VkBool32* is_done);
-ZVO_C_API ZvoResult zvoTreeCompressionIsBroken(const ZvoTreeCompression* compression, VkBool32* is_broken);
-ZVO_C_API ZvoResult zvoTreeCompressionTake(ZvoTreeCompression* compression, ZvoTree** tree);
+ZVO_C_API ZvoResult zvoTreeCompressionCreate(ZvoContext* context, ZvoTree* octree, ZvoTreeJob** compression);
+
+ZVO_C_API void zvoTreeJobDestroy(ZvoTreeJob* job);
+ZVO_C_API ZvoResult zvoTreeJobRecord(ZvoTreeJob* job, ZvoRecorder* recorder, VkBool32* has_more);
+ZVO_C_API ZvoResult zvoTreeJobIsDone(ZvoTreeJob* job, VkBool32* is_done);
+ZVO_C_API ZvoResult zvoTreeJobIsBroken(const ZvoTreeJob* job, VkBool32* is_broken);
+ZVO_C_API ZvoResult zvoTreeJobTake(ZvoTreeJob* job, ZvoTree** tree);
+ZVO_C_API ZvoResult zvoTreeJobDropped(const ZvoTreeJob* job, ZvoDroppedTriangles* dropped);
 
 // zvo::DynamicTree.
 
@@ -563,10 +398,8 @@ typedef struct ZvoDynamicTreeInfo
 } ZvoDynamicTreeInfo;
 
 #define ZVO_DYNAMIC_TREE_INFO_INIT                                                                                     \
-    {                                                                                                                  \
-        sizeof(ZvoDynamicTreeInfo), ZVO_COVERAGE_THIN, ZVO_MERGE_RULE_DYNAMIC_WINS, 2, 0, 1, UINT64_MAX, 1024,         \
-            268435456                                                                                                  \
-    }
+    ZVO_STRUCT_INIT(ZvoDynamicTreeInfo, ZVO_COVERAGE_THIN, ZVO_MERGE_RULE_DYNAMIC_WINS, 2, 0, 1, UINT64_MAX, 1024,     \
+                    268435456)
 
 /// As zvo::BrushInfo.
 typedef struct ZvoBrushInfo
@@ -581,9 +414,7 @@ typedef struct ZvoBrushInfo
 } ZvoBrushInfo;
 
 #define ZVO_BRUSH_INFO_INIT                                                                                            \
-    {                                                                                                                  \
-        sizeof(ZvoBrushInfo), ZVO_BRUSH_SHAPE_SPHERE, ZVO_BRUSH_ACTION_CARVE, {0, 0, 0}, 0, 0, 0                       \
-    }
+    ZVO_STRUCT_INIT(ZvoBrushInfo, ZVO_BRUSH_SHAPE_SPHERE, ZVO_BRUSH_ACTION_CARVE, {0, 0, 0}, 0, 0, 0)
 
 /// As zvo::UpdateStats.
 typedef struct ZvoUpdateStats
@@ -600,10 +431,7 @@ typedef struct ZvoUpdateStats
     uint32_t reserved;
 } ZvoUpdateStats;
 
-#define ZVO_UPDATE_STATS_INIT                                                                                          \
-    {                                                                                                                  \
-        sizeof(ZvoUpdateStats), 0, 0, 0, 0, 0, 0, 0, VK_FALSE, 0                                                       \
-    }
+#define ZVO_UPDATE_STATS_INIT ZVO_STRUCT_INIT(ZvoUpdateStats, 0, 0, 0, 0, 0, 0, 0, VK_FALSE, 0)
 
 typedef uint32_t ZvoDynamicObjectId;
 
@@ -641,13 +469,7 @@ typedef struct ZvoSunInfo
     double irradiance[3];
 } ZvoSunInfo;
 
-#define ZVO_SUN_INFO_INIT                                                                                              \
-    {                                                                                                                  \
-        sizeof(ZvoSunInfo), {-0.6, 0.75, 0.45},                                                                        \
-        {                                                                                                              \
-            2.2F, 2.2F * 0.93, 2.2F * 0.82                                                                             \
-        }                                                                                                              \
-    }
+#define ZVO_SUN_INFO_INIT ZVO_STRUCT_INIT(ZvoSunInfo, {-0.6, 0.75, 0.45}, {2.2F, 2.2F * 0.93, 2.2F * 0.82})
 
 /// As zvo::EnvironmentMapInfo.
 typedef struct ZvoEnvironmentMapInfo
@@ -661,10 +483,7 @@ typedef struct ZvoEnvironmentMapInfo
     uint32_t reserved;
 } ZvoEnvironmentMapInfo;
 
-#define ZVO_ENVIRONMENT_MAP_INFO_INIT                                                                                  \
-    {                                                                                                                  \
-        sizeof(ZvoEnvironmentMapInfo), NULL, 0, 0, 0, 1, 0                                                             \
-    }
+#define ZVO_ENVIRONMENT_MAP_INFO_INIT ZVO_STRUCT_INIT(ZvoEnvironmentMapInfo, NULL, 0, 0, 0, 1, 0)
 
 /// map: null: the simple sky, with the sun of ZVO_SUN_INFO_INIT. A map has no sun.
 ZVO_C_API ZvoResult zvoEnvironmentCreate(ZvoRecorder* recorder, const ZvoEnvironmentMapInfo* map,
@@ -687,10 +506,7 @@ typedef struct ZvoCameraInfo
     uint32_t reserved;
 } ZvoCameraInfo;
 
-#define ZVO_CAMERA_INFO_INIT                                                                                           \
-    {                                                                                                                  \
-        sizeof(ZvoCameraInfo), {0, 0, 0}, {0, 0, -1}, {0, 1, 0}, 0.7, 1, VK_FALSE, 0                                   \
-    }
+#define ZVO_CAMERA_INFO_INIT ZVO_STRUCT_INIT(ZvoCameraInfo, {0, 0, 0}, {0, 0, -1}, {0, 1, 0}, 0.7, 1, VK_FALSE, 0)
 
 /// As zvo::TraceInfo.
 typedef struct ZvoTraceInfo
@@ -708,9 +524,7 @@ typedef struct ZvoTraceInfo
 } ZvoTraceInfo;
 
 #define ZVO_TRACE_INFO_INIT                                                                                            \
-    {                                                                                                                  \
-        sizeof(ZvoTraceInfo), {-0.6, 0.75, 0.45}, ZVO_VIEW_COLOR, VK_TRUE, 2.2F, 1, 0, 0.1F, 0, 0                      \
-    }
+    ZVO_STRUCT_INIT(ZvoTraceInfo, {-0.6, 0.75, 0.45}, ZVO_VIEW_COLOR, VK_TRUE, 2.2F, 1, 0, 0.1F, 0, 0)
 
 /// As zvo::PathInfo.
 typedef struct ZvoPathInfo
@@ -728,10 +542,7 @@ typedef struct ZvoPathInfo
     uint32_t history_max;
 } ZvoPathInfo;
 
-#define ZVO_PATH_INFO_INIT                                                                                             \
-    {                                                                                                                  \
-        sizeof(ZvoPathInfo), 8, 0, 0, 1, VK_FALSE, VK_TRUE, 1, 1, VK_FALSE, 16                                         \
-    }
+#define ZVO_PATH_INFO_INIT ZVO_STRUCT_INIT(ZvoPathInfo, 8, 0, 0, 1, VK_FALSE, VK_TRUE, 1, 1, VK_FALSE, 16)
 
 /// As zvo::ImageTarget.
 typedef struct ZvoImageTarget
@@ -747,13 +558,8 @@ typedef struct ZvoImageTarget
 } ZvoImageTarget;
 
 #define ZVO_IMAGE_TARGET_INIT                                                                                          \
-    {                                                                                                                  \
-        sizeof(ZvoImageTarget), VK_NULL_HANDLE, VK_FORMAT_UNDEFINED, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, {0, 0}, 0,  \
-            0,                                                                                                         \
-        {                                                                                                              \
-            0, 0                                                                                                       \
-        }                                                                                                              \
-    }
+    ZVO_STRUCT_INIT(ZvoImageTarget, VK_NULL_HANDLE, VK_FORMAT_UNDEFINED, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, {0, 0}, \
+                    0, 0, {0, 0})
 
 /// As zvo::DepthTarget.
 typedef struct ZvoDepthTarget
@@ -766,9 +572,7 @@ typedef struct ZvoDepthTarget
 } ZvoDepthTarget;
 
 #define ZVO_DEPTH_TARGET_INIT                                                                                          \
-    {                                                                                                                  \
-        sizeof(ZvoDepthTarget), NULL, {0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0}, 1, 0                           \
-    }
+    ZVO_STRUCT_INIT(ZvoDepthTarget, NULL, {0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0}, 1, 0)
 
 ZVO_C_API ZvoResult zvoTracerCreate(ZvoContext* context, uint32_t width, uint32_t height, VkFormat format,
                                     ZvoTracer** tracer);
@@ -808,10 +612,7 @@ typedef struct ZvoKeptLightInfo
     uint32_t height;
 } ZvoKeptLightInfo;
 
-#define ZVO_KEPT_LIGHT_INFO_INIT                                                                                       \
-    {                                                                                                                  \
-        sizeof(ZvoKeptLightInfo), 0, 160, 90                                                                           \
-    }
+#define ZVO_KEPT_LIGHT_INFO_INIT ZVO_STRUCT_INIT(ZvoKeptLightInfo, 0, 160, 90)
 
 /// As zvo::KeptFrameInfo.
 typedef struct ZvoKeptFrameInfo
@@ -821,10 +622,7 @@ typedef struct ZvoKeptFrameInfo
     uint32_t seed;
 } ZvoKeptFrameInfo;
 
-#define ZVO_KEPT_FRAME_INFO_INIT                                                                                       \
-    {                                                                                                                  \
-        sizeof(ZvoKeptFrameInfo), 16384, 0                                                                             \
-    }
+#define ZVO_KEPT_FRAME_INFO_INIT ZVO_STRUCT_INIT(ZvoKeptFrameInfo, 16384, 0)
 
 /// As zvo::KeptLightStats.
 typedef struct ZvoKeptLightStats
@@ -834,10 +632,7 @@ typedef struct ZvoKeptLightStats
     uint64_t refused;
 } ZvoKeptLightStats;
 
-#define ZVO_KEPT_LIGHT_STATS_INIT                                                                                      \
-    {                                                                                                                  \
-        sizeof(ZvoKeptLightStats), 0, 0                                                                                \
-    }
+#define ZVO_KEPT_LIGHT_STATS_INIT ZVO_STRUCT_INIT(ZvoKeptLightStats, 0, 0)
 
 ZVO_C_API ZvoResult zvoKeptLightCreate(ZvoContext* context, const ZvoKeptLightInfo* info, ZvoKeptLight** light);
 ZVO_C_API void zvoKeptLightDestroy(ZvoKeptLight* light);
@@ -860,10 +655,7 @@ typedef struct ZvoKeptPictureInfo
     float exposure;
 } ZvoKeptPictureInfo;
 
-#define ZVO_KEPT_PICTURE_INFO_INIT                                                                                     \
-    {                                                                                                                  \
-        sizeof(ZvoKeptPictureInfo), VK_TRUE, 1                                                                         \
-    }
+#define ZVO_KEPT_PICTURE_INFO_INIT ZVO_STRUCT_INIT(ZvoKeptPictureInfo, VK_TRUE, 1)
 
 ZVO_C_API ZvoResult zvoTracerTraceKept(ZvoTracer* tracer, ZvoRecorder* recorder, const ZvoTree* tree,
                                        ZvoEnvironment* environment, ZvoKeptLight* light, const ZvoCameraInfo* camera,

@@ -37,7 +37,7 @@
 #include "light/light_tree.h"
 #include "trace/light.h"
 
-GPU_ENUM(LightSampling, std::uint32_t) // kSampleBoth and so on
+GPU_ENUM(LightSampling) // kSampleBoth and so on
 #define GPU_TYPE_LightSampling uint
 
 GPU_NAMESPACE_BEGIN

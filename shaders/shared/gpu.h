@@ -20,12 +20,14 @@
 //
 // makes them, and `params`. A kernel without constants has GPU_NO_CONSTANTS.
 //
-//   GPU_ENUM(View, std::uint32_t)   zvo::View is an enum class, defined where the host needs it, and a type of
-//   constants. #define GPU_TYPE_View uint      Its type in GLSL
+//   GPU_ENUM(View)
+//   #define GPU_TYPE_View uint
+//
+// make an enum class of C++, which the host defines where it needs it, a type of constants; in GLSL they are uints.
 //
 // Bound forms (lib/bound.glsl) need no declaration of their own: their bindings have the names of parameters.
 //
-// This file holds the project's only `#ifdef __cplusplus`; the other shared headers need none.
+// This file holds the shared headers' only `#ifdef __cplusplus`; the others need none.
 #ifndef ZVO_SHADERS_SHARED_GPU_H
 #define ZVO_SHADERS_SHARED_GPU_H
 
@@ -107,10 +109,10 @@ private:
         }                                                                                                              \
     };                                                                                                                 \
     }
-#define GPU_ENUM(NAME, TYPE)                                                                                           \
+#define GPU_ENUM(NAME)                                                                                                 \
     namespace zvo                                                                                                      \
     {                                                                                                                  \
-    enum class NAME : TYPE;                                                                                            \
+    enum class NAME : std::uint32_t;                                                                                   \
     }
 
 #else
@@ -148,7 +150,7 @@ private:
         PARAMS params;                                                                                                 \
     }
 #define GPU_KERNEL(OPERATION, KERNEL, NAME, PARAMS, CONSTANTS)
-#define GPU_ENUM(NAME, TYPE)
+#define GPU_ENUM(NAME)
 
 #endif
 

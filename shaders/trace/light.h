@@ -5,9 +5,9 @@
 
 #include "trace/trace.h"
 
-GPU_ENUM(TexelFormat, std::uint32_t) // kTexelRgba8 and so on
+GPU_ENUM(TexelFormat) // kTexelRgba8 and so on
 #define GPU_TYPE_TexelFormat uint
-GPU_ENUM(View, std::uint32_t) // kViewColor and so on
+GPU_ENUM(View) // kViewColor and so on
 #define GPU_TYPE_View uint
 
 GPU_NAMESPACE_BEGIN

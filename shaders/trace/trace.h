@@ -8,7 +8,7 @@
 #include "shared/svdag.h"
 #include "shared/trace.h"
 
-GPU_ENUM(AttributeFormat, std::uint32_t) // kFormat8 and so on (shared/attribute_formats.h)
+GPU_ENUM(AttributeFormat) // kFormat8 and so on (shared/attribute_formats.h)
 #define GPU_TYPE_AttributeFormat uint
 
 GPU_NAMESPACE_BEGIN

@@ -29,7 +29,7 @@
 #include "shared/svdag.h"
 #include "voxelize/voxelize.h"
 
-GPU_ENUM(MergeRule, std::uint32_t) // kMergeAverage and so on
+GPU_ENUM(MergeRule) // kMergeAverage and so on
 #define GPU_TYPE_MergeRule uint
 
 GPU_NAMESPACE_BEGIN

@@ -7,11 +7,11 @@
 #include "shared/octree.h"
 #include "shared/scene.h"
 
-GPU_ENUM(Coverage, int) // kCoverageConservative, kCoverageThin
+GPU_ENUM(Coverage) // kCoverageConservative, kCoverageThin
 #define GPU_TYPE_Coverage uint
-GPU_ENUM(MaterialClass, std::uint32_t) // kClassPlain and so on
+GPU_ENUM(MaterialClass) // kClassPlain and so on
 #define GPU_TYPE_MaterialClass uint
-GPU_ENUM(RasterMode, std::uint32_t) // kModeCoverage and so on
+GPU_ENUM(RasterMode) // kModeCoverage and so on
 #define GPU_TYPE_RasterMode uint
 
 GPU_NAMESPACE_BEGIN

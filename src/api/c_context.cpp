@@ -2,7 +2,6 @@
 // The C interface: errors, the host's device, contexts and recorders.
 #include "api/c_convert.h"
 #include "api/c_handles.h"
-#include "api/c_struct.h"
 
 #include <array>
 #include <cstdio>
@@ -21,45 +20,20 @@ std::array<char, kMessageMax>& lastMessage()
     return message;
 }
 
-// The C++ callbacks, which call the host's functions in C. user: the ZvoContext.
-
+// The C++ callback, which calls the host's function in C. user: the ZvoContext.
 void logInC(void* user, LogSeverity severity, const char* message)
 {
     const ZvoLogCallback& log = static_cast<const ZvoContext*>(user)->log;
     log.function(log.user, static_cast<ZvoLogSeverity>(severity), message);
 }
 
-ZvoMemoryRange rangeInC(const MemoryRange& range)
-{
-    return {range.memory, range.offset, range.mapped, range.cookie};
-}
-
-VkResult allocateInC(void* user, const MemoryRequest* request, MemoryRange* range)
-{
-    const ZvoMemoryCallbacks& memory = static_cast<const ZvoContext*>(user)->memory;
-    const ZvoMemoryRequest given = {request->name,      request->requirements, request->required,
-                                    request->preferred, request->map,          request->device_address};
-    ZvoMemoryRange got = rangeInC(*range);
-    const VkResult result = memory.allocate(memory.user, &given, &got);
-    *range = {got.memory, got.offset, got.mapped, got.cookie};
-    return result;
-}
-
-void releaseInC(void* user, const MemoryRange* range)
-{
-    const ZvoMemoryCallbacks& memory = static_cast<const ZvoContext*>(user)->memory;
-    const ZvoMemoryRange given = rangeInC(*range);
-    memory.release(memory.user, &given);
-}
-
 ContextInfo contextInfo(const ZvoContextInfo& info, ZvoContext* context)
 {
     ContextInfo result = ofC(info);
-    result.memory.user = context;
-    result.memory.allocate = info.memory.allocate != nullptr ? &allocateInC : nullptr;
-    result.memory.release = info.memory.release != nullptr ? &releaseInC : nullptr;
-    result.log.user = context;
-    result.log.function = info.log.function != nullptr ? &logInC : nullptr;
+    if (info.log.function != nullptr)
+    {
+        result.log = {&logInC, context};
+    }
     return result;
 }
 
@@ -91,7 +65,7 @@ ZvoResult failed(const char* function, ErrorCode code, const char* message) noex
 using namespace zvo;
 
 ZvoContext::ZvoContext(const ZvoContextInfo& info)
-    : memory(info.memory), log(info.log), object(contextInfo(info, this)), report{object.report()}
+    : log(info.log), object(contextInfo(info, this)), report{object.report()}
 {
 }
 
@@ -118,14 +92,9 @@ ZvoResult zvoQuery(PFN_vkGetInstanceProcAddr get_instance_proc_addr, VkInstance 
                    });
 }
 
-void zvoDeviceReportDestroy(ZvoDeviceReport* report)
-{
-    delete report;
-}
-
 ZvoResult zvoDeviceReportInfo(const ZvoDeviceReport* report, ZvoDeviceInfo* info)
 {
-    return guarded(__func__, [&] { writeStruct(info, "info", toC(at(report, "report").object)); });
+    return guarded(__func__, [&] { write(info, "info", objectOf(report, "report")); });
 }
 
 ZvoResult zvoDeviceReportText(const ZvoDeviceReport* report, ZvoReportList list, uint32_t index, const char** text)
@@ -133,7 +102,7 @@ ZvoResult zvoDeviceReportText(const ZvoDeviceReport* report, ZvoReportList list,
     return guarded(__func__,
                    [&]
                    {
-                       const std::vector<std::string>& lines = listOf(at(report, "report").object, list);
+                       const std::vector<std::string>& lines = listOf(objectOf(report, "report"), list);
                        at(text, "text") = index < lines.size() ? lines[index].c_str() : nullptr;
                    });
 }
@@ -143,19 +112,13 @@ ZvoResult zvoFeatureStorageCreate(ZvoFeatureStorage** storage)
     return guarded(__func__, [&] { give(storage, "storage", [] { return FeatureStorage(); }); });
 }
 
-void zvoFeatureStorageDestroy(ZvoFeatureStorage* storage)
-{
-    delete storage;
-}
-
 ZvoResult zvoPatchFeatures(VkDeviceCreateInfo* info, ZvoFeatureStorage* storage, const ZvoOptionalFeatures* optional)
 {
     return guarded(__func__,
                    [&]
                    {
-                       const OptionalFeatures features =
-                           optional == nullptr ? OptionalFeatures{} : ofC(readStruct(optional, "optional"));
-                       patchFeatures(at(info, "info"), at(storage, "storage").object, features);
+                       const auto features = optional == nullptr ? OptionalFeatures{} : read(optional, "optional");
+                       patchFeatures(at(info, "info"), objectOf(storage, "storage"), features);
                    });
 }
 
@@ -164,24 +127,19 @@ ZvoResult zvoContextCreate(const ZvoContextInfo* info, ZvoContext** context)
     return guarded(__func__, [&] { give(context, "context", [&] { return readStruct(info, "info"); }); });
 }
 
-void zvoContextDestroy(ZvoContext* context)
-{
-    delete context;
-}
-
 ZvoResult zvoContextFrameDone(ZvoContext* context, uint64_t frame)
 {
-    return guarded(__func__, [&] { at(context, "context").object.frameDone(frame); });
+    return guarded(__func__, [&] { objectOf(context, "context").frameDone(frame); });
 }
 
 ZvoResult zvoContextFrameLost(ZvoContext* context, uint64_t frame)
 {
-    return guarded(__func__, [&] { at(context, "context").object.frameLost(frame); });
+    return guarded(__func__, [&] { objectOf(context, "context").frameLost(frame); });
 }
 
 ZvoResult zvoContextMemory(const ZvoContext* context, ZvoMemoryUse* use)
 {
-    return guarded(__func__, [&] { writeStruct(use, "use", toC(at(context, "context").object.memory())); });
+    return guarded(__func__, [&] { write(use, "use", objectOf(context, "context").memory()); });
 }
 
 ZvoResult zvoContextPassTimeCount(const ZvoContext* context, uint32_t* count)
@@ -189,7 +147,7 @@ ZvoResult zvoContextPassTimeCount(const ZvoContext* context, uint32_t* count)
     return guarded(__func__,
                    [&]
                    {
-                       const std::size_t passes = at(context, "context").object.passTimes().size();
+                       const std::size_t passes = objectOf(context, "context").passTimes().size();
                        at(count, "count") = static_cast<std::uint32_t>(passes);
                    });
 }
@@ -199,12 +157,12 @@ ZvoResult zvoContextPassTime(const ZvoContext* context, uint32_t index, ZvoPassT
     return guarded(__func__,
                    [&]
                    {
-                       const std::vector<PassTime>& times = at(context, "context").object.passTimes();
+                       const std::vector<PassTime>& times = objectOf(context, "context").passTimes();
                        if (index >= times.size())
                        {
                            throw Error(ErrorCode::Usage, "there is no pass " + std::to_string(index));
                        }
-                       writeStruct(time, "time", toC(times[index]));
+                       write(time, "time", times[index]);
                    });
 }
 
@@ -220,17 +178,12 @@ ZvoResult zvoRecorderBegin(ZvoContext* context, VkCommandBuffer commands, uint64
                    [&]
                    {
                        at(commands, "commands");
-                       Context& object = at(context, "context").object;
+                       Context& object = objectOf(context, "context");
                        give(recorder, "recorder", [&] { return Recorder(object, commands, frame, readers); });
                    });
 }
 
-void zvoRecorderEnd(ZvoRecorder* recorder)
-{
-    delete recorder;
-}
-
 ZvoResult zvoRecorderMakeVisible(ZvoRecorder* recorder, VkPipelineStageFlags2 stages)
 {
-    return guarded(__func__, [&] { at(recorder, "recorder").object.makeVisible(stages); });
+    return guarded(__func__, [&] { objectOf(recorder, "recorder").makeVisible(stages); });
 }

@@ -1,20 +1,113 @@
 // SPDX-License-Identifier: MIT
-// Converts structs of the C interface, which readStruct() has completed, to those of the C++ interface, and back. All
-// functions throw Error{Usage} for values that an enumeration does not have, and for arrays that are null but not
-// empty.
+// Structs of the C interface become those of the C++ interface, and back. Functions throw Error{Usage} for structs that
+// are not valid (api/c_struct.h) and for arrays that are null but not empty; what members may be is checked by the C++
+// interface.
 #pragma once
 
-#include "zvo/zvo.h"
-#include "zvo/zvo.hpp"
+#include "api/c_members.h"
+#include "api/c_struct.h"
 
-#include <cstdint>
-#include <map>
-#include <span>
+#include <algorithm>
+#include <cstddef>
+#include <iterator>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 namespace zvo
 {
+
+// Give members that only one interface has what the other's members say.
+void assignOwn(ContextInfo& to, const ZvoContextInfo& from); // but the log, whose function has another type
+void assignOwn(TextureInfo& to, const ZvoTextureInfo& from);
+void assignOwn(MeshInfo& to, const ZvoMeshInfo& from);
+void assignOwn(EnvironmentMapInfo& to, const ZvoEnvironmentMapInfo& from);
+void assignOwn(DepthTarget& to, const ZvoDepthTarget& from);
+void assignOwn(ZvoDeviceInfo& to, const DeviceReport& from); // texts are the report's
+void assignOwn(ZvoModelStats& to, const Model& from);
+void assignOwn(ZvoDroppedTriangles& to, const DroppedTriangles& from);
+void assignOwn(ZvoUpdateStats& to, const UpdateStats& from);
+
+/// Assigns the members that two structs share. Struct: the one of the C interface.
+template <typename Struct, typename To, typename From> void assignShared(To& to, const From& from);
+
+/// Assigns a member. Texts stay those of `from`.
+template <typename To, typename From> void assignMember(To& to, const From& from)
+{
+    if constexpr (std::is_same_v<To, From>)
+    {
+        to = from;
+    }
+    else if constexpr (std::is_same_v<To, bool>)
+    {
+        to = from != VK_FALSE;
+    }
+    else if constexpr (std::is_same_v<From, bool>)
+    {
+        to = from ? VK_TRUE : VK_FALSE;
+    }
+    else if constexpr (std::is_same_v<From, std::string>)
+    {
+        to = from.c_str();
+    }
+    else if constexpr (requires { std::begin(to); })
+    {
+        std::copy(std::begin(from), std::end(from), std::begin(to));
+    }
+    else if constexpr (requires { typename CStruct<From>::InCpp; })
+    {
+        assignShared<From>(to, from);
+    }
+    else if constexpr (requires { typename CStruct<To>::InCpp; })
+    {
+        assignShared<To>(to, from);
+    }
+    else
+    {
+        to = static_cast<To>(from); // an enumeration, or an integer of another width
+    }
+}
+
+template <typename Struct, typename To, typename From> void assignShared(To& to, const From& from)
+{
+    eachShared<Struct>(to, from, [](auto& into, const auto& of) { assignMember(into, of); });
+}
+
+/// The contents of a struct of the C interface, which readStruct() has completed.
+template <typename Struct> typename CStruct<Struct>::InCpp ofC(const Struct& from)
+{
+    typename CStruct<Struct>::InCpp result;
+    assignShared<Struct>(result, from);
+    if constexpr (requires { assignOwn(result, from); })
+    {
+        assignOwn(result, from);
+    }
+    return result;
+}
+
+/// A struct of the C interface with these contents.
+template <typename Struct> Struct toC(const typename CStruct<Struct>::InCpp& from)
+{
+    Struct result = CStruct<Struct>::initial();
+    assignShared<Struct>(result, from);
+    if constexpr (requires { assignOwn(result, from); })
+    {
+        assignOwn(result, from);
+    }
+    return result;
+}
+
+/// What a host's struct says.
+template <typename Struct> typename CStruct<Struct>::InCpp read(const Struct* given, const char* name)
+{
+    return ofC(readStruct(given, name));
+}
+
+/// Fills a host's struct.
+template <typename Struct> void write(Struct* out, const char* name, const typename CStruct<Struct>::InCpp& contents)
+{
+    writeStruct(out, name, toC<Struct>(contents));
+}
 
 /// The C++ ModelInfo of a C one, with the arrays that it refers to. Vertices stay the host's.
 class ModelOfC
@@ -33,38 +126,5 @@ private:
     std::vector<TextureInfo> m_textures;
     ModelInfo m_info;
 };
-
-/// Converts everything but memory and log, which are functions of other types.
-ContextInfo ofC(const ZvoContextInfo& info);
-OptionalFeatures ofC(const ZvoOptionalFeatures& features);
-TextureInfo ofC(const ZvoTextureInfo& info);
-MaterialInfo ofC(const ZvoMaterialInfo& info);
-MeshInfo ofC(const ZvoMeshInfo& info);
-InstanceInfo ofC(const ZvoInstanceInfo& info);
-GridInfo ofC(const ZvoGrid& grid);
-TreeBuildInfo ofC(const ZvoTreeBuildInfo& info);
-DynamicTreeInfo ofC(const ZvoDynamicTreeInfo& info);
-BrushInfo ofC(const ZvoBrushInfo& info);
-SunInfo ofC(const ZvoSunInfo& info);
-EnvironmentMapInfo ofC(const ZvoEnvironmentMapInfo& map);
-CameraInfo ofC(const ZvoCameraInfo& info);
-TraceInfo ofC(const ZvoTraceInfo& info);
-PathInfo ofC(const ZvoPathInfo& info);
-ImageTarget ofC(const ZvoImageTarget& target);
-DepthTarget ofC(const ZvoDepthTarget& target);
-KeptLightInfo ofC(const ZvoKeptLightInfo& info);
-KeptFrameInfo ofC(const ZvoKeptFrameInfo& info);
-KeptPictureInfo ofC(const ZvoKeptPictureInfo& info);
-
-ZvoDeviceInfo toC(const DeviceReport& report); // texts are the report's
-ZvoMemoryUse toC(const MemoryUse& use);
-ZvoPassTime toC(const PassTime& time); // the name is time's
-ZvoGrid toC(const GridInfo& grid);
-ZvoTreeInfo toC(const TreeInfo& info);
-ZvoUpdateStats toC(const UpdateStats& info);
-ZvoDroppedTriangles toC(const std::map<std::string, std::uint64_t>& dropped);
-ZvoCameraInfo toC(const CameraInfo& info);
-ZvoCameraRays toC(const CameraRays& rays);
-ZvoKeptLightStats toC(const KeptLightStats& stats);
 
 } // namespace zvo

@@ -2,9 +2,9 @@
 // The C interface: dynamic trees.
 #include "api/c_convert.h"
 #include "api/c_handles.h"
-#include "api/c_struct.h"
 
 #include <algorithm>
+#include <iterator>
 
 namespace zvo
 {
@@ -19,18 +19,6 @@ Mat4 matrixOf(const float* values)
     return result;
 }
 
-// Checks all pointers, then calls work and stores its answer.
-template <typename Work>
-ZvoResult answered(const char* function, ZvoDynamicTree* tree, VkBool32* answer, const Work& work)
-{
-    return guarded(function,
-                   [&]
-                   {
-                       VkBool32& result = at(answer, "the last pointer");
-                       result = work(at(tree, "tree").object) ? VK_TRUE : VK_FALSE;
-                   });
-}
-
 } // namespace
 
 } // namespace zvo
@@ -43,17 +31,12 @@ ZvoResult zvoDynamicTreeCreate(ZvoRecorder* recorder, ZvoTree* fixed, const ZvoD
     return guarded(__func__,
                    [&]
                    {
-                       const DynamicTreeInfo description = ofC(readStruct(info, "info"));
-                       Recorder& object = at(recorder, "recorder").object;
-                       Tree& source = at(fixed, "fixed").object;
+                       const DynamicTreeInfo description = read(info, "info");
+                       Recorder& object = objectOf(recorder, "recorder");
+                       Tree& source = objectOf(fixed, "fixed");
                        give(tree, "tree", [&] { return DynamicTree(object, std::move(source), description); });
                        delete fixed;
                    });
-}
-
-void zvoDynamicTreeDestroy(ZvoDynamicTree* tree)
-{
-    delete tree;
 }
 
 ZvoResult zvoDynamicTreeAddObject(ZvoDynamicTree* tree, ZvoRecorder* recorder, const ZvoModel* model,
@@ -63,100 +46,92 @@ ZvoResult zvoDynamicTreeAddObject(ZvoDynamicTree* tree, ZvoRecorder* recorder, c
                    [&]
                    {
                        ZvoDynamicObjectId& result = at(id, "id");
-                       Recorder& object = at(recorder, "recorder").object;
-                       result =
-                           at(tree, "tree").object.addObject(object, at(model, "model").object, matrixOf(to_world));
+                       Recorder& object = objectOf(recorder, "recorder");
+                       result = objectOf(tree, "tree").addObject(object, objectOf(model, "model"), matrixOf(to_world));
                    });
 }
 
 ZvoResult zvoDynamicTreeSetTransform(ZvoDynamicTree* tree, ZvoDynamicObjectId id, const float to_world[16])
 {
-    return guarded(__func__, [&] { at(tree, "tree").object.setTransform(id, matrixOf(to_world)); });
+    return guarded(__func__, [&] { objectOf(tree, "tree").setTransform(id, matrixOf(to_world)); });
 }
 
 ZvoResult zvoDynamicTreeRemoveObject(ZvoDynamicTree* tree, ZvoDynamicObjectId id)
 {
-    return guarded(__func__, [&] { at(tree, "tree").object.removeObject(id); });
+    return guarded(__func__, [&] { objectOf(tree, "tree").removeObject(id); });
 }
 
 ZvoResult zvoDynamicTreeUpdate(ZvoDynamicTree* tree, ZvoRecorder* recorder, double budget_ms, VkBool32* is_complete)
 {
-    return answered(__func__, tree, is_complete,
-                    [&](DynamicTree& object) { return object.update(at(recorder, "recorder").object, budget_ms); });
+    return answered(__func__, is_complete, "is_complete",
+                    [&] { return objectOf(tree, "tree").update(objectOf(recorder, "recorder"), budget_ms); });
 }
 
 ZvoResult zvoDynamicTreeNeedsUpdate(ZvoDynamicTree* tree, VkBool32* needs_update)
 {
-    return answered(__func__, tree, needs_update, [](DynamicTree& object) { return object.needsUpdate(); });
+    return answered(__func__, needs_update, "needs_update", [&] { return objectOf(tree, "tree").needsUpdate(); });
 }
 
 ZvoResult zvoDynamicTreeUndo(ZvoDynamicTree* tree, ZvoRecorder* recorder, VkBool32* is_undone)
 {
-    return answered(__func__, tree, is_undone,
-                    [&](DynamicTree& object) { return object.undo(at(recorder, "recorder").object); });
+    return answered(__func__, is_undone, "is_undone",
+                    [&] { return objectOf(tree, "tree").undo(objectOf(recorder, "recorder")); });
 }
 
 ZvoResult zvoDynamicTreeRedo(ZvoDynamicTree* tree, ZvoRecorder* recorder, VkBool32* is_redone)
 {
-    return answered(__func__, tree, is_redone,
-                    [&](DynamicTree& object) { return object.redo(at(recorder, "recorder").object); });
+    return answered(__func__, is_redone, "is_redone",
+                    [&] { return objectOf(tree, "tree").redo(objectOf(recorder, "recorder")); });
 }
 
 ZvoResult zvoDynamicTreeEdit(ZvoDynamicTree* tree, ZvoRecorder* recorder, const ZvoBrushInfo* brush,
                              VkBool32* is_recorded)
 {
-    return answered(__func__, tree, is_recorded,
-                    [&](DynamicTree& object)
-                    {
-                        const BrushInfo info = ofC(readStruct(brush, "brush"));
-                        return object.edit(at(recorder, "recorder").object, info);
-                    });
+    return answered(__func__, is_recorded, "is_recorded",
+                    [&] { return objectOf(tree, "tree").edit(objectOf(recorder, "recorder"), read(brush, "brush")); });
 }
 
 ZvoResult zvoDynamicTreeEndStroke(ZvoDynamicTree* tree)
 {
-    return guarded(__func__, [&] { at(tree, "tree").object.endStroke(); });
+    return guarded(__func__, [&] { objectOf(tree, "tree").endStroke(); });
 }
 
 ZvoResult zvoDynamicTreeUndoEdit(ZvoDynamicTree* tree, ZvoRecorder* recorder, VkBool32* is_undone)
 {
-    return answered(__func__, tree, is_undone,
-                    [&](DynamicTree& object) { return object.undoEdit(at(recorder, "recorder").object); });
+    return answered(__func__, is_undone, "is_undone",
+                    [&] { return objectOf(tree, "tree").undoEdit(objectOf(recorder, "recorder")); });
 }
 
 ZvoResult zvoDynamicTreeRedoEdit(ZvoDynamicTree* tree, ZvoRecorder* recorder, VkBool32* is_redone)
 {
-    return answered(__func__, tree, is_redone,
-                    [&](DynamicTree& object) { return object.redoEdit(at(recorder, "recorder").object); });
+    return answered(__func__, is_redone, "is_redone",
+                    [&] { return objectOf(tree, "tree").redoEdit(objectOf(recorder, "recorder")); });
 }
 
 ZvoResult zvoDynamicTreeTakeUpdate(ZvoDynamicTree* tree, ZvoUpdateStats* stats, VkBool32* is_taken)
 {
-    return guarded(__func__,
-                   [&]
-                   {
-                       auto& [object, updates] = at(tree, "tree");
-                       VkBool32& result = at(is_taken, "is_taken");
-                       sizeOf(stats, "stats");
-                       for (UpdateStats& update : object.takeUpdates())
-                       {
-                           updates.push_back(std::move(update));
-                       }
-                       result = updates.empty() ? VK_FALSE : VK_TRUE;
-                       if (!updates.empty())
-                       {
-                           writeStruct(stats, "stats", toC(updates.front()));
-                           updates.pop_front();
-                       }
-                   });
+    return answered(__func__, is_taken, "is_taken",
+                    [&]
+                    {
+                        auto& [object, updates] = at(tree, "tree");
+                        sizeOf(stats, "stats");
+                        std::ranges::move(object.takeUpdates(), std::back_inserter(updates));
+                        if (updates.empty())
+                        {
+                            return false;
+                        }
+                        write(stats, "stats", updates.front());
+                        updates.pop_front();
+                        return true;
+                    });
 }
 
 ZvoResult zvoDynamicTreeInfo(const ZvoDynamicTree* tree, ZvoTreeInfo* info)
 {
-    return guarded(__func__, [&] { writeStruct(info, "info", toC(at(tree, "tree").object.info())); });
+    return guarded(__func__, [&] { write(info, "info", objectOf(tree, "tree").info()); });
 }
 
 ZvoResult zvoDynamicTreeAddress(const ZvoDynamicTree* tree, uint64_t* address)
 {
-    return guarded(__func__, [&] { at(address, "address") = at(tree, "tree").object.address(); });
+    return guarded(__func__, [&] { at(address, "address") = objectOf(tree, "tree").address(); });
 }

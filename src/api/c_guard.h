@@ -59,4 +59,16 @@ template <typename Handle, typename Make> void give(Handle** out, const char* na
     handle = new Handle{make()};
 }
 
+/// Stores what work() answers, as guarded(). Null is Error{Usage} before work() is called.
+template <typename Work>
+ZvoResult answered(const char* function, VkBool32* out, const char* name, const Work& work) noexcept
+{
+    return guarded(function,
+                   [&]
+                   {
+                       VkBool32& answer = at(out, name);
+                       answer = work() ? VK_TRUE : VK_FALSE;
+                   });
+}
+
 } // namespace zvo

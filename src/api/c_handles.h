@@ -2,57 +2,40 @@
 // The objects behind the handles of the C interface.
 #pragma once
 
+#include "api/c_guard.h"
 #include "zvo/zvo.h"
 #include "zvo/zvo.hpp"
 
 #include <deque>
 
-struct ZvoDeviceReport
-{
-    zvo::DeviceReport object;
-};
+#define ZVO_HANDLE(Handle, Object)                                                                                     \
+    struct Handle                                                                                                      \
+    {                                                                                                                  \
+        zvo::Object object;                                                                                            \
+    }
 
-struct ZvoFeatureStorage
-{
-    zvo::FeatureStorage object;
-};
+ZVO_HANDLE(ZvoDeviceReport, DeviceReport);
+ZVO_HANDLE(ZvoFeatureStorage, FeatureStorage);
+ZVO_HANDLE(ZvoRecorder, Recorder);
+ZVO_HANDLE(ZvoModel, Model);
+ZVO_HANDLE(ZvoTree, Tree);
+ZVO_HANDLE(ZvoTreeJob, TreeJob);
+ZVO_HANDLE(ZvoEnvironment, Environment);
+ZVO_HANDLE(ZvoTracer, Tracer);
+ZVO_HANDLE(ZvoKeptLight, KeptLight);
 
-/// The host's C functions stand in front of the Context, so that they outlive it.
+#undef ZVO_HANDLE
+
+/// The host's C function stands in front of the Context, so that it outlives it.
 struct ZvoContext
 {
     explicit ZvoContext(const ZvoContextInfo& info);
     ZvoContext(const ZvoContext&) = delete;
     ZvoContext& operator=(const ZvoContext&) = delete;
 
-    ZvoMemoryCallbacks memory;
     ZvoLogCallback log;
     zvo::Context object;
     ZvoDeviceReport report;
-};
-
-struct ZvoRecorder
-{
-    zvo::Recorder object;
-};
-
-struct ZvoModel
-{
-    zvo::Model object;
-};
-
-struct ZvoTree
-{
-    zvo::Tree object;
-};
-
-struct ZvoTreeBuild
-{
-    zvo::TreeBuild object;
-};
-
-struct ZvoTreeCompression
-{
-    zvo::TreeCompression object;
 };
 
 struct ZvoDynamicTree
@@ -61,17 +44,13 @@ struct ZvoDynamicTree
     std::deque<zvo::UpdateStats> updates = {}; // that the host has not taken
 };
 
-struct ZvoEnvironment
+namespace zvo
 {
-    zvo::Environment object;
-};
 
-struct ZvoTracer
+/// The object of a handle. Throws Error{Usage} for null.
+template <typename Handle> auto& objectOf(Handle* handle, const char* name)
 {
-    zvo::Tracer object;
-};
+    return at(handle, name).object;
+}
 
-struct ZvoKeptLight
-{
-    zvo::KeptLight object;
-};
+} // namespace zvo

@@ -2,7 +2,6 @@
 // The C interface: light that is kept on voxels.
 #include "api/c_convert.h"
 #include "api/c_handles.h"
-#include "api/c_struct.h"
 
 namespace zvo
 {
@@ -17,10 +16,9 @@ ZvoResult update(const char* function, ZvoKeptLight* light, ZvoRecorder* recorde
     return guarded(function,
                    [&]
                    {
-                       at(light, "light")
-                           .object.update(at(recorder, "recorder").object, at(tree, "tree").object,
-                                          at(environment, "environment").object, ofC(readStruct(camera, "camera")),
-                                          ofC(readStruct(info, "info")));
+                       objectOf(light, "light")
+                           .update(objectOf(recorder, "recorder"), objectOf(tree, "tree"),
+                                   objectOf(environment, "environment"), read(camera, "camera"), read(info, "info"));
                    });
 }
 
@@ -32,11 +30,10 @@ ZvoResult traceKept(const char* function, ZvoTracer* tracer, ZvoRecorder* record
     return guarded(function,
                    [&]
                    {
-                       at(tracer, "tracer")
-                           .object.traceKept(at(recorder, "recorder").object, at(tree, "tree").object,
-                                             at(environment, "environment").object, at(light, "light").object,
-                                             ofC(readStruct(camera, "camera")), ofC(readStruct(info, "info")),
-                                             ofC(readStruct(color, "color")));
+                       objectOf(tracer, "tracer")
+                           .traceKept(objectOf(recorder, "recorder"), objectOf(tree, "tree"),
+                                      objectOf(environment, "environment"), objectOf(light, "light"),
+                                      read(camera, "camera"), read(info, "info"), read(color, "color"));
                    });
 }
 
@@ -51,15 +48,10 @@ ZvoResult zvoKeptLightCreate(ZvoContext* context, const ZvoKeptLightInfo* info, 
     return guarded(__func__,
                    [&]
                    {
-                       Context& object = at(context, "context").object;
-                       const KeptLightInfo description = ofC(readStruct(info, "info"));
+                       Context& object = objectOf(context, "context");
+                       const KeptLightInfo description = read(info, "info");
                        give(light, "light", [&] { return KeptLight(object, description); });
                    });
-}
-
-void zvoKeptLightDestroy(ZvoKeptLight* light)
-{
-    delete light;
 }
 
 ZvoResult zvoKeptLightUpdate(ZvoKeptLight* light, ZvoRecorder* recorder, const ZvoTree* tree,
@@ -77,22 +69,22 @@ ZvoResult zvoKeptLightUpdateDynamic(ZvoKeptLight* light, ZvoRecorder* recorder, 
 
 ZvoResult zvoKeptLightAddress(const ZvoKeptLight* light, uint64_t* address)
 {
-    return guarded(__func__, [&] { at(address, "address") = at(light, "light").object.address(); });
+    return guarded(__func__, [&] { at(address, "address") = objectOf(light, "light").address(); });
 }
 
 ZvoResult zvoKeptLightForget(ZvoKeptLight* light)
 {
-    return guarded(__func__, [&] { at(light, "light").object.forget(); });
+    return guarded(__func__, [&] { objectOf(light, "light").forget(); });
 }
 
 ZvoResult zvoKeptLightStats(ZvoKeptLight* light, ZvoKeptLightStats* stats)
 {
-    return guarded(__func__, [&] { writeStruct(stats, "stats", toC(at(light, "light").object.stats())); });
+    return guarded(__func__, [&] { write(stats, "stats", objectOf(light, "light").stats()); });
 }
 
 ZvoResult zvoKeptLightBytes(const ZvoKeptLight* light, uint64_t* bytes)
 {
-    return guarded(__func__, [&] { at(bytes, "bytes") = at(light, "light").object.bytes(); });
+    return guarded(__func__, [&] { at(bytes, "bytes") = objectOf(light, "light").bytes(); });
 }
 
 ZvoResult zvoTracerTraceKept(ZvoTracer* tracer, ZvoRecorder* recorder, const ZvoTree* tree, ZvoEnvironment* environment,

@@ -2,7 +2,6 @@
 // The C interface: light from outside of the grid.
 #include "api/c_convert.h"
 #include "api/c_handles.h"
-#include "api/c_struct.h"
 
 using namespace zvo;
 
@@ -11,23 +10,18 @@ ZvoResult zvoEnvironmentCreate(ZvoRecorder* recorder, const ZvoEnvironmentMapInf
     return guarded(__func__,
                    [&]
                    {
-                       Recorder& object = at(recorder, "recorder").object;
+                       Recorder& object = objectOf(recorder, "recorder");
                        if (map == nullptr)
                        {
                            give(environment, "environment", [&] { return Environment(object); });
                            return;
                        }
-                       const EnvironmentMapInfo description = ofC(readStruct(map, "map"));
+                       const EnvironmentMapInfo description = read(map, "map");
                        give(environment, "environment", [&] { return Environment(object, description); });
                    });
 }
 
-void zvoEnvironmentDestroy(ZvoEnvironment* environment)
-{
-    delete environment;
-}
-
 ZvoResult zvoEnvironmentSetSun(ZvoEnvironment* environment, const ZvoSunInfo* sun)
 {
-    return guarded(__func__, [&] { at(environment, "environment").object.setSun(ofC(readStruct(sun, "sun"))); });
+    return guarded(__func__, [&] { objectOf(environment, "environment").setSun(read(sun, "sun")); });
 }

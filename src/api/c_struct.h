@@ -3,59 +3,16 @@
 #pragma once
 
 #include "api/c_guard.h"
+#include "api/c_members.h"
 
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
-#include <type_traits>
 #include <vector>
 
 namespace zvo
 {
-
-/// A struct with the values of its ZVO_..._INIT.
-template <typename Struct> Struct initial();
-
-// Members fill structs to the end: else members that are added would lie in what older hosts never wrote.
-#define ZVO_C_STRUCT(Struct, last, init)                                                                               \
-    template <> inline Struct initial<Struct>()                                                                        \
-    {                                                                                                                  \
-        return init;                                                                                                   \
-    }                                                                                                                  \
-    static_assert(offsetof(Struct, struct_size) == 0 && std::is_standard_layout_v<Struct>);                            \
-    static_assert(offsetof(Struct, last) + sizeof(Struct::last) == sizeof(Struct))
-
-ZVO_C_STRUCT(ZvoOptionalFeatures, reserved, ZVO_OPTIONAL_FEATURES_INIT);
-ZVO_C_STRUCT(ZvoDeviceInfo, reserved, ZVO_DEVICE_INFO_INIT);
-ZVO_C_STRUCT(ZvoContextInfo, tuning, ZVO_CONTEXT_INFO_INIT);
-ZVO_C_STRUCT(ZvoMemoryUse, peak_held, ZVO_MEMORY_USE_INIT);
-ZVO_C_STRUCT(ZvoPassTime, ms, ZVO_PASS_TIME_INIT);
-ZVO_C_STRUCT(ZvoTextureInfo, wrap_v, ZVO_TEXTURE_INFO_INIT);
-ZVO_C_STRUCT(ZvoMaterialInfo, reserved, ZVO_MATERIAL_INFO_INIT);
-ZVO_C_STRUCT(ZvoMeshInfo, reserved, ZVO_MESH_INFO_INIT);
-ZVO_C_STRUCT(ZvoInstanceInfo, reserved, ZVO_INSTANCE_INFO_INIT);
-ZVO_C_STRUCT(ZvoModelInfo, emission_scale, ZVO_MODEL_INFO_INIT);
-ZVO_C_STRUCT(ZvoModelStats, reserved, ZVO_MODEL_STATS_INIT);
-ZVO_C_STRUCT(ZvoTreeInfo, bytes, ZVO_TREE_INFO_INIT);
-ZVO_C_STRUCT(ZvoTreeBuildInfo, keep_sums, ZVO_TREE_BUILD_INFO_INIT);
-ZVO_C_STRUCT(ZvoDroppedTriangles, zero_area, ZVO_DROPPED_TRIANGLES_INIT);
-ZVO_C_STRUCT(ZvoDynamicTreeInfo, edit_bytes, ZVO_DYNAMIC_TREE_INFO_INIT);
-ZVO_C_STRUCT(ZvoBrushInfo, reserved, ZVO_BRUSH_INFO_INIT);
-ZVO_C_STRUCT(ZvoUpdateStats, reserved, ZVO_UPDATE_STATS_INIT);
-ZVO_C_STRUCT(ZvoSunInfo, irradiance, ZVO_SUN_INFO_INIT);
-ZVO_C_STRUCT(ZvoEnvironmentMapInfo, reserved, ZVO_ENVIRONMENT_MAP_INFO_INIT);
-ZVO_C_STRUCT(ZvoCameraInfo, reserved, ZVO_CAMERA_INFO_INIT);
-ZVO_C_STRUCT(ZvoTraceInfo, reserved, ZVO_TRACE_INFO_INIT);
-ZVO_C_STRUCT(ZvoPathInfo, history_max, ZVO_PATH_INFO_INIT);
-ZVO_C_STRUCT(ZvoImageTarget, extent, ZVO_IMAGE_TARGET_INIT);
-ZVO_C_STRUCT(ZvoDepthTarget, reserved, ZVO_DEPTH_TARGET_INIT);
-ZVO_C_STRUCT(ZvoKeptLightInfo, height, ZVO_KEPT_LIGHT_INFO_INIT);
-ZVO_C_STRUCT(ZvoKeptFrameInfo, seed, ZVO_KEPT_FRAME_INFO_INIT);
-ZVO_C_STRUCT(ZvoKeptPictureInfo, exposure, ZVO_KEPT_PICTURE_INFO_INIT);
-ZVO_C_STRUCT(ZvoKeptLightStats, refused, ZVO_KEPT_LIGHT_STATS_INIT);
-
-#undef ZVO_C_STRUCT
 
 /// No struct will ever be larger. A size that a host forgot to set is larger in most cases.
 inline constexpr std::size_t kStructBytesMax = 4096;
@@ -92,7 +49,7 @@ template <typename Struct> Struct readStruct(const Struct* given, const char* na
                                               std::to_string(ZVO_VERSION) + ", does not know");
         }
     }
-    Struct result = initial<Struct>();
+    Struct result = CStruct<Struct>::initial();
     std::memcpy(&result, given, std::min(size, sizeof(Struct)));
     result.struct_size = sizeof(Struct);
     if constexpr (requires { result.reserved; })
@@ -105,16 +62,26 @@ template <typename Struct> Struct readStruct(const Struct* given, const char* na
     return result;
 }
 
-/// The elements of a host's array.
-template <typename Struct> std::vector<Struct> readStructs(const Struct* given, std::size_t count, const char* name)
+/// Throws Error{Usage} for more elements than any memory has.
+inline void requireCount(std::size_t count, std::size_t element_bytes, const char* name)
 {
-    std::vector<Struct> result;
-    const std::size_t stride = count == 0 ? 0 : sizeOf(given, name);
-    if (stride != 0 && count > PTRDIFF_MAX / stride)
+    if (count > PTRDIFF_MAX / element_bytes)
     {
         throw Error(ErrorCode::Usage,
                     std::string(name) + " has more elements than any memory: " + std::to_string(count));
     }
+}
+
+/// The elements of a host's array.
+template <typename Struct> std::vector<Struct> readStructs(const Struct* given, std::size_t count, const char* name)
+{
+    std::vector<Struct> result;
+    if (count == 0)
+    {
+        return result;
+    }
+    const std::size_t stride = sizeOf(given, name);
+    requireCount(count, stride, name);
     for (std::size_t i = 0; i < count; ++i)
     {
         const auto* const element =

@@ -2,7 +2,6 @@
 // The C interface: pictures and cameras.
 #include "api/c_convert.h"
 #include "api/c_handles.h"
-#include "api/c_struct.h"
 
 #include <algorithm>
 #include <optional>
@@ -24,12 +23,11 @@ ZvoResult trace(const char* function, ZvoTracer* tracer, ZvoRecorder* recorder, 
                        std::optional<DepthTarget> depth_target;
                        if (depth != nullptr)
                        {
-                           depth_target = ofC(readStruct(depth, "depth"));
+                           depth_target = read(depth, "depth");
                        }
-                       at(tracer, "tracer")
-                           .object.trace(at(recorder, "recorder").object, at(tree, "tree").object,
-                                         ofC(readStruct(camera, "camera")), ofC(readStruct(info, "info")),
-                                         ofC(readStruct(color, "color")), depth_target ? &*depth_target : nullptr);
+                       objectOf(tracer, "tracer")
+                           .trace(objectOf(recorder, "recorder"), objectOf(tree, "tree"), read(camera, "camera"),
+                                  read(info, "info"), read(color, "color"), depth_target ? &*depth_target : nullptr);
                    });
 }
 
@@ -41,10 +39,10 @@ ZvoResult tracePaths(const char* function, ZvoTracer* tracer, ZvoRecorder* recor
     return guarded(function,
                    [&]
                    {
-                       at(tracer, "tracer")
-                           .object.tracePaths(at(recorder, "recorder").object, at(tree, "tree").object,
-                                              at(environment, "environment").object, ofC(readStruct(camera, "camera")),
-                                              ofC(readStruct(info, "info")), ofC(readStruct(color, "color")));
+                       objectOf(tracer, "tracer")
+                           .tracePaths(objectOf(recorder, "recorder"), objectOf(tree, "tree"),
+                                       objectOf(environment, "environment"), read(camera, "camera"), read(info, "info"),
+                                       read(color, "color"));
                    });
 }
 
@@ -66,14 +64,9 @@ ZvoResult zvoTracerCreate(ZvoContext* context, uint32_t width, uint32_t height, 
     return guarded(__func__,
                    [&]
                    {
-                       Context& object = at(context, "context").object;
+                       Context& object = objectOf(context, "context");
                        give(tracer, "tracer", [&] { return Tracer(object, width, height, format); });
                    });
-}
-
-void zvoTracerDestroy(ZvoTracer* tracer)
-{
-    delete tracer;
 }
 
 ZvoResult zvoTracerTrace(ZvoTracer* tracer, ZvoRecorder* recorder, const ZvoTree* tree, const ZvoCameraInfo* camera,
@@ -105,12 +98,12 @@ ZvoResult zvoTracerTracePathsDynamic(ZvoTracer* tracer, ZvoRecorder* recorder, Z
 
 ZvoResult zvoTracerSampleCount(const ZvoTracer* tracer, uint32_t* count)
 {
-    return guarded(__func__, [&] { at(count, "count") = at(tracer, "tracer").object.sampleCount(); });
+    return guarded(__func__, [&] { at(count, "count") = objectOf(tracer, "tracer").sampleCount(); });
 }
 
 ZvoResult zvoTracerForgetSamples(ZvoTracer* tracer)
 {
-    return guarded(__func__, [&] { at(tracer, "tracer").object.forgetSamples(); });
+    return guarded(__func__, [&] { objectOf(tracer, "tracer").forgetSamples(); });
 }
 
 ZvoResult zvoCameraLookAt(const double eye[3], const double target[3], double vertical_fov, ZvoCameraInfo* camera)
@@ -120,7 +113,7 @@ ZvoResult zvoCameraLookAt(const double eye[3], const double target[3], double ve
                    {
                        const CameraInfo info =
                            CameraInfo::lookAt(vectorOf(eye, "eye"), vectorOf(target, "target"), vertical_fov);
-                       writeStruct(camera, "camera", toC(info));
+                       write(camera, "camera", info);
                    });
 }
 
@@ -129,7 +122,7 @@ ZvoResult zvoCameraRays(const ZvoCameraInfo* camera, const ZvoGrid* grid, uint32
     return guarded(__func__,
                    [&]
                    {
-                       const CameraInfo info = ofC(readStruct(camera, "camera"));
-                       at(rays, "rays") = toC(cameraRays(info, ofC(at(grid, "grid")), height));
+                       const CameraRays result = cameraRays(read(camera, "camera"), ofC(at(grid, "grid")), height);
+                       at(rays, "rays") = toC<ZvoCameraRays>(result);
                    });
 }

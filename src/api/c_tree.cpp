@@ -2,51 +2,8 @@
 // The C interface: models, trees, and the jobs that make them.
 #include "api/c_convert.h"
 #include "api/c_handles.h"
-#include "api/c_struct.h"
 
 #include <filesystem>
-
-namespace zvo
-{
-
-namespace
-{
-
-VkBool32 boolean(bool value)
-{
-    return value ? VK_TRUE : VK_FALSE;
-}
-
-// TreeBuild and TreeCompression share these functions.
-
-template <typename Job> ZvoResult record(const char* function, Job* job, ZvoRecorder* recorder, VkBool32* has_more)
-{
-    return guarded(function,
-                   [&]
-                   {
-                       VkBool32& result = at(has_more, "has_more");
-                       result = boolean(at(job, "job").object.record(at(recorder, "recorder").object));
-                   });
-}
-
-template <typename Job> ZvoResult isDone(const char* function, Job* job, VkBool32* is_done)
-{
-    return guarded(function, [&] { at(is_done, "is_done") = boolean(at(job, "job").object.isDone()); });
-}
-
-template <typename Job> ZvoResult isBroken(const char* function, const Job* job, VkBool32* is_broken)
-{
-    return guarded(function, [&] { at(is_broken, "is_broken") = boolean(at(job, "job").object.isBroken()); });
-}
-
-template <typename Job> ZvoResult take(const char* function, Job* job, ZvoTree** tree)
-{
-    return guarded(function, [&] { give(tree, "tree", [&] { return at(job, "job").object.take(); }); });
-}
-
-} // namespace
-
-} // namespace zvo
 
 using namespace zvo;
 
@@ -56,31 +13,18 @@ ZvoResult zvoModelCreate(ZvoRecorder* recorder, const ZvoModelInfo* info, ZvoMod
                    [&]
                    {
                        const ModelOfC description(readStruct(info, "info"));
-                       give(model, "model", [&] { return Model(at(recorder, "recorder").object, description.info()); });
+                       give(model, "model", [&] { return Model(objectOf(recorder, "recorder"), description.info()); });
                    });
-}
-
-void zvoModelDestroy(ZvoModel* model)
-{
-    delete model;
 }
 
 ZvoResult zvoModelStats(const ZvoModel* model, ZvoModelStats* stats)
 {
-    return guarded(__func__,
-                   [&]
-                   {
-                       const Model& object = at(model, "model").object;
-                       auto result = initial<ZvoModelStats>();
-                       result.triangle_count = object.triangleCount();
-                       result.emission_scale = object.emissionScale();
-                       writeStruct(stats, "stats", result);
-                   });
+    return guarded(__func__, [&] { write(stats, "stats", objectOf(model, "model")); });
 }
 
 ZvoResult zvoModelGridAround(const ZvoModel* model, uint32_t depth, ZvoGrid* grid)
 {
-    return guarded(__func__, [&] { at(grid, "grid") = toC(at(model, "model").object.gridAround(depth)); });
+    return guarded(__func__, [&] { at(grid, "grid") = toC<ZvoGrid>(objectOf(model, "model").gridAround(depth)); });
 }
 
 ZvoResult zvoTreeFromFile(ZvoRecorder* recorder, const char* path, ZvoTree** tree)
@@ -89,7 +33,7 @@ ZvoResult zvoTreeFromFile(ZvoRecorder* recorder, const char* path, ZvoTree** tre
                    [&]
                    {
                        const std::filesystem::path file(&at(path, "path"));
-                       give(tree, "tree", [&] { return Tree(at(recorder, "recorder").object, file); });
+                       give(tree, "tree", [&] { return Tree(objectOf(recorder, "recorder"), file); });
                    });
 }
 
@@ -100,101 +44,67 @@ ZvoResult zvoTreeFromMemory(ZvoRecorder* recorder, const void* file, size_t file
                    {
                        const auto* const bytes = &at(static_cast<const std::byte*>(file), "file");
                        give(tree, "tree",
-                            [&] { return Tree(at(recorder, "recorder").object, std::span(bytes, file_bytes)); });
+                            [&] { return Tree(objectOf(recorder, "recorder"), std::span(bytes, file_bytes)); });
                    });
-}
-
-void zvoTreeDestroy(ZvoTree* tree)
-{
-    delete tree;
 }
 
 ZvoResult zvoTreeInfo(const ZvoTree* tree, ZvoTreeInfo* info)
 {
-    return guarded(__func__, [&] { writeStruct(info, "info", toC(at(tree, "tree").object.info())); });
+    return guarded(__func__, [&] { write(info, "info", objectOf(tree, "tree").info()); });
 }
 
 ZvoResult zvoTreeAddress(const ZvoTree* tree, uint64_t* address)
 {
-    return guarded(__func__, [&] { at(address, "address") = at(tree, "tree").object.address(); });
+    return guarded(__func__, [&] { at(address, "address") = objectOf(tree, "tree").address(); });
 }
 
 ZvoResult zvoTreeBuildCreate(ZvoContext* context, const ZvoModel* model, const ZvoTreeBuildInfo* info,
-                             ZvoTreeBuild** build)
+                             ZvoTreeJob** build)
 {
     return guarded(__func__,
                    [&]
                    {
-                       const TreeBuildInfo description = ofC(readStruct(info, "info"));
-                       const Model& object = at(model, "model").object;
+                       const TreeBuildInfo description = read(info, "info");
+                       const Model& source = objectOf(model, "model");
                        give(build, "build",
-                            [&] { return TreeBuild(at(context, "context").object, object, description); });
+                            [&] { return TreeBuild(objectOf(context, "context"), source, description); });
                    });
 }
 
-void zvoTreeBuildDestroy(ZvoTreeBuild* build)
-{
-    delete build;
-}
-
-ZvoResult zvoTreeBuildRecord(ZvoTreeBuild* build, ZvoRecorder* recorder, VkBool32* has_more)
-{
-    return record(__func__, build, recorder, has_more);
-}
-
-ZvoResult zvoTreeBuildIsDone(ZvoTreeBuild* build, VkBool32* is_done)
-{
-    return isDone(__func__, build, is_done);
-}
-
-ZvoResult zvoTreeBuildIsBroken(const ZvoTreeBuild* build, VkBool32* is_broken)
-{
-    return isBroken(__func__, build, is_broken);
-}
-
-ZvoResult zvoTreeBuildTake(ZvoTreeBuild* build, ZvoTree** tree)
-{
-    return take(__func__, build, tree);
-}
-
-ZvoResult zvoTreeBuildDropped(const ZvoTreeBuild* build, ZvoDroppedTriangles* dropped)
-{
-    return guarded(__func__, [&] { writeStruct(dropped, "dropped", toC(at(build, "build").object.dropped())); });
-}
-
-ZvoResult zvoTreeCompressionCreate(ZvoContext* context, ZvoTree* octree, ZvoTreeCompression** compression)
+ZvoResult zvoTreeCompressionCreate(ZvoContext* context, ZvoTree* octree, ZvoTreeJob** compression)
 {
     return guarded(__func__,
                    [&]
                    {
-                       Context& object = at(context, "context").object;
-                       Tree& source = at(octree, "octree").object;
+                       Context& object = objectOf(context, "context");
+                       Tree& source = objectOf(octree, "octree");
                        give(compression, "compression", [&] { return TreeCompression(object, std::move(source)); });
                        delete octree;
                    });
 }
 
-void zvoTreeCompressionDestroy(ZvoTreeCompression* compression)
+ZvoResult zvoTreeJobRecord(ZvoTreeJob* job, ZvoRecorder* recorder, VkBool32* has_more)
 {
-    delete compression;
+    return answered(__func__, has_more, "has_more",
+                    [&] { return objectOf(job, "job").record(objectOf(recorder, "recorder")); });
 }
 
-ZvoResult zvoTreeCompressionRecord(ZvoTreeCompression* compression, ZvoRecorder* recorder, VkBool32* has_more)
+ZvoResult zvoTreeJobIsDone(ZvoTreeJob* job, VkBool32* is_done)
 {
-    return record(__func__, compression, recorder, has_more);
+    return answered(__func__, is_done, "is_done", [&] { return objectOf(job, "job").isDone(); });
 }
 
-ZvoResult zvoTreeCompressionIsDone(ZvoTreeCompression* compression, VkBool32* is_done)
+ZvoResult zvoTreeJobIsBroken(const ZvoTreeJob* job, VkBool32* is_broken)
 {
-    return isDone(__func__, compression, is_done);
+    return answered(__func__, is_broken, "is_broken", [&] { return objectOf(job, "job").isBroken(); });
 }
 
-ZvoResult zvoTreeCompressionIsBroken(const ZvoTreeCompression* compression, VkBool32* is_broken)
+ZvoResult zvoTreeJobTake(ZvoTreeJob* job, ZvoTree** tree)
 {
-    return isBroken(__func__, compression, is_broken);
+    return guarded(__func__, [&] { give(tree, "tree", [&] { return objectOf(job, "job").take(); }); });
 }
 
-ZvoResult zvoTreeCompressionTake(ZvoTreeCompression* compression, ZvoTree** tree)
+ZvoResult zvoTreeJobDropped(const ZvoTreeJob* job, ZvoDroppedTriangles* dropped)
 {
-    return take(__func__, compression, tree);
+    return guarded(__func__, [&] { write(dropped, "dropped", objectOf(job, "job").dropped()); });
 }

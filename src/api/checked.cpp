@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace zvo
@@ -38,18 +39,9 @@ template <typename Values> bool areFinite(const Values& values)
 }
 
 // Row 3 of a matrix of columns.
-template <typename Matrix> typename Matrix::value_type lastRow(const Matrix& matrix, std::size_t column)
+template <typename Number> std::array<Number, 4> lastRow(const std::array<Number, 16>& matrix)
 {
-    return matrix[4 * column + 3];
-}
-
-template <typename Number> Number checkedNumber(Number amount, const char* name)
-{
-    if (!std::isfinite(amount) || amount < 0)
-    {
-        throw Error(ErrorCode::Usage, fmt::format("{} is {}: it must be finite and 0 or more", name, amount));
-    }
-    return amount;
+    return {matrix[3], matrix[7], matrix[11], matrix[15]};
 }
 
 void requireOne(std::uint64_t count, const char* name)
@@ -69,6 +61,8 @@ void requireDirection(const DVec3& direction, const char* name)
     }
 }
 
+} // namespace
+
 void requireAtMost(std::uint64_t count, std::uint64_t most, const char* name)
 {
     if (count > most)
@@ -76,8 +70,6 @@ void requireAtMost(std::uint64_t count, std::uint64_t most, const char* name)
         throw Error(ErrorCode::Usage, fmt::format("{} is {}: it must be at most {}", name, count, most));
     }
 }
-
-} // namespace
 
 Grid checkedGrid(const GridInfo& info)
 {
@@ -111,25 +103,26 @@ const Mat4& checkedTransform(const Mat4& transform, const std::string& what)
     {
         throw Error(ErrorCode::Usage, fmt::format("the transform of {} has numbers that are not finite", what));
     }
-    if (lastRow(transform, 0) != 0 || lastRow(transform, 1) != 0 || lastRow(transform, 2) != 0 ||
-        lastRow(transform, 3) != 1)
+    const std::array<float, 4> row = lastRow(transform);
+    if (row != std::array{0.0F, 0.0F, 0.0F, 1.0F})
     {
         throw Error(ErrorCode::Usage, fmt::format("the transform of {} is not affine: its last row is ({}, {}, {}, {})",
-                                                  what, lastRow(transform, 0), lastRow(transform, 1),
-                                                  lastRow(transform, 2), lastRow(transform, 3)));
+                                                  what, row[0], row[1], row[2], row[3]));
     }
     return transform;
 }
 
-float checkedAmount(float amount, const char* name)
+template <typename Number> Number checkedAmount(Number amount, const char* name)
 {
-    return checkedNumber(amount, name);
+    if (!std::isfinite(amount) || amount < 0)
+    {
+        throw Error(ErrorCode::Usage, fmt::format("{} is {}: it must be finite and 0 or more", name, amount));
+    }
+    return amount;
 }
 
-double checkedAmount(double amount, const char* name)
-{
-    return checkedNumber(amount, name);
-}
+template float checkedAmount(float amount, const char* name);
+template double checkedAmount(double amount, const char* name);
 
 const TreeBuildInfo& checked(const TreeBuildInfo& info)
 {
@@ -207,11 +200,7 @@ const KeptLightInfo& checked(const KeptLightInfo& info)
 {
     checkedEdge(info.width);
     checkedEdge(info.height);
-    if (info.faces > kKeptFacesMax)
-    {
-        throw Error(ErrorCode::Usage,
-                    fmt::format("KeptLightInfo::faces is {}: it must be at most {}", info.faces, kKeptFacesMax));
-    }
+    requireAtMost(info.faces, kKeptFacesMax, "KeptLightInfo::faces");
     return info;
 }
 
@@ -274,10 +263,7 @@ const EnvironmentMapInfo& checked(const EnvironmentMapInfo& map)
 
 const DepthTarget& checked(const DepthTarget& target)
 {
-    const DMat4& matrix = target.view_projection;
-    const bool divides =
-        lastRow(matrix, 0) != 0 || lastRow(matrix, 1) != 0 || lastRow(matrix, 2) != 0 || lastRow(matrix, 3) != 0;
-    if (!areFinite(matrix) || !divides)
+    if (!areFinite(target.view_projection) || lastRow(target.view_projection) == std::array<double, 4>{})
     {
         throw Error(ErrorCode::Usage, "DepthTarget::view_projection must be finite, with a last row that is not 0: "
                                       "from world to clip space");

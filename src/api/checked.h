@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Checks of what hosts hand over, before anything is recorded. All functions throw Error{Usage} for values that are not
-// valid. The C interface uses them as well.
+// valid.
 #pragma once
 
 #include "core/base/grid.h"
@@ -19,18 +19,14 @@ namespace zvo
 {
 
 /// A value of an enumeration that begins at 0 and has no gaps.
-template <typename Enum> Enum checkedEnum(std::uint32_t value, Enum last, const char* name)
-{
-    if (value > static_cast<std::uint32_t>(last))
-    {
-        throw Error(ErrorCode::Usage, std::string(name) + " has no value " + std::to_string(value));
-    }
-    return static_cast<Enum>(value);
-}
-
 template <typename Enum> Enum checkedEnum(Enum value, Enum last, const char* name)
 {
-    return checkedEnum(static_cast<std::uint32_t>(value), last, name);
+    if (value > last)
+    {
+        throw Error(ErrorCode::Usage,
+                    std::string(name) + " has no value " + std::to_string(static_cast<std::uint32_t>(value)));
+    }
+    return value;
 }
 
 /// Checks that the depth exists, the far corner is finite, and the voxel size has a finite inverse.
@@ -39,9 +35,10 @@ Grid checkedGrid(const GridInfo& info);
 /// Checks that a transform is finite and affine. what: the transform's name in messages.
 const Mat4& checkedTransform(const Mat4& transform, const std::string& what);
 
-/// Checks that a number is finite and not negative.
-float checkedAmount(float amount, const char* name);
-double checkedAmount(double amount, const char* name);
+/// Checks that a number, a float or a double, is finite and not negative.
+template <typename Number> Number checkedAmount(Number amount, const char* name);
+
+void requireAtMost(std::uint64_t count, std::uint64_t most, const char* name);
 
 const TreeBuildInfo& checked(const TreeBuildInfo& info);
 const DynamicTreeInfo& checked(const DynamicTreeInfo& info);

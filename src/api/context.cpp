@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "zvo/context.h"
 
+#include "api/checked.h"
 #include "api/context_impl.h"
 #include "core/base/kernels.h"
 #include "core/base/tuning.h"
@@ -25,8 +26,16 @@ constexpr VkAccessFlags2 kAccesses = kWrites | VK_ACCESS_2_SHADER_STORAGE_READ_B
                                      VK_ACCESS_2_SHADER_SAMPLED_READ_BIT | VK_ACCESS_2_TRANSFER_READ_BIT |
                                      VK_ACCESS_2_INDIRECT_COMMAND_READ_BIT;
 
-void recordBarrier(const vk::Device& device, VkCommandBuffer commands, const VkMemoryBarrier2& barrier)
+// Records that zvo's writes, and what else these stages do, come before these accesses in those stages.
+void recordBarrier(const vk::Device& device, VkCommandBuffer commands, VkPipelineStageFlags2 before,
+                   VkPipelineStageFlags2 after, VkAccessFlags2 accesses)
 {
+    VkMemoryBarrier2 barrier{};
+    barrier.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER_2;
+    barrier.srcStageMask = before;
+    barrier.srcAccessMask = kWrites;
+    barrier.dstStageMask = after;
+    barrier.dstAccessMask = accesses;
     VkDependencyInfo info{};
     info.sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO;
     info.memoryBarrierCount = 1;
@@ -46,25 +55,9 @@ constexpr VkPipelineStageFlags2 kStagesWithoutShaders =
 // Each takes up to three timestamps, whose number must fit 32 bits.
 constexpr std::uint32_t kTimedPassesMax = 1U << 16;
 
-const ContextInfo& checked(const ContextInfo& info)
-{
-    if (info.timed_passes_per_frame > kTimedPassesMax)
-    {
-        throw Error(ErrorCode::Usage, fmt::format("ContextInfo::timed_passes_per_frame is {}: it must be at most {}",
-                                                  info.timed_passes_per_frame, kTimedPassesMax));
-    }
-    return info;
-}
-
-VkMemoryBarrier2 memoryBarrier()
-{
-    VkMemoryBarrier2 barrier{};
-    barrier.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER_2;
-    return barrier;
-}
-
 vk::DeviceHandles handlesOf(const ContextInfo& info)
 {
+    requireAtMost(info.timed_passes_per_frame, kTimedPassesMax, "ContextInfo::timed_passes_per_frame");
     vk::DeviceHandles handles;
     handles.get_instance_proc_addr = info.get_instance_proc_addr;
     handles.instance = info.instance;
@@ -93,8 +86,7 @@ vk::DeviceHandles handlesOf(const ContextInfo& info)
 } // namespace
 
 Context::Impl::Impl(const ContextInfo& info)
-    : device(handlesOf(checked(info)), zvoKernels()), uploads(device, deletion_queue),
-      timed_passes(info.timed_passes_per_frame)
+    : device(handlesOf(info), zvoKernels()), uploads(device, deletion_queue), timed_passes(info.timed_passes_per_frame)
 {
 }
 
@@ -253,12 +245,7 @@ Recorder::Recorder(Context& context, VkCommandBuffer commands, std::uint64_t fra
     const std::size_t pass_count = state->pass_count;
     m_impl = std::make_unique<Impl>(Impl{impl, std::move(state), vk::FrameGraph(impl.device, commands, timers)});
     m_impl->graph.countFrom(pass_count);
-    VkMemoryBarrier2 barrier = memoryBarrier();
-    barrier.srcStageMask = kStages | readers;
-    barrier.srcAccessMask = kWrites;
-    barrier.dstStageMask = kStages;
-    barrier.dstAccessMask = kAccesses;
-    recordBarrier(impl.device, commands, barrier);
+    recordBarrier(impl.device, commands, kStages | readers, kStages, kAccesses);
     impl.uploads.attach(&m_impl->graph);
     impl.is_recording = true;
 }
@@ -282,12 +269,8 @@ void Recorder::makeVisible(VkPipelineStageFlags2 stages)
                                                   "does",
                                                   stages));
     }
-    VkMemoryBarrier2 barrier = memoryBarrier();
-    barrier.srcStageMask = kStages;
-    barrier.srcAccessMask = kWrites;
-    barrier.dstStageMask = stages;
-    barrier.dstAccessMask = VK_ACCESS_2_SHADER_STORAGE_READ_BIT;
-    recordBarrier(m_impl->context.device, m_impl->graph.commands(), barrier);
+    recordBarrier(m_impl->context.device, m_impl->graph.commands(), kStages, stages,
+                  VK_ACCESS_2_SHADER_STORAGE_READ_BIT);
 }
 
 } // namespace zvo

@@ -117,10 +117,25 @@ template <typename Impl> Impl& contentOf(Impl* impl, const char* what)
     return *impl;
 }
 
-/// Throws Error{Usage} if two objects belong to different contexts.
-inline void requireSame(const Context::Impl& a, const Context::Impl& b)
+/// The implementation of an object. Throws Error{Usage} for an object that was lost with its frame, taken over or moved
+/// from.
+template <typename Object> auto& usable(const Object& object)
 {
-    if (&a != &b)
+    auto& impl = contentOf(std::to_address(object.impl()), Object::Impl::kName);
+    if constexpr (requires { impl.made_in; })
+    {
+        if (impl.made_in)
+        {
+            requireUsable(*impl.made_in, Object::Impl::kName);
+        }
+    }
+    return impl;
+}
+
+/// Throws Error{Usage} if objects belong to different contexts.
+template <typename... Contexts> void requireSame(const Context::Impl& first, const Contexts&... others)
+{
+    if ((... || (&first != &others)))
     {
         throw Error(ErrorCode::Usage, "objects of two contexts cannot be used together");
     }

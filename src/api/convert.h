@@ -6,38 +6,21 @@
 #include "zvo/types.h"
 
 #include <glm/glm.hpp>
+#include <glm/gtc/type_ptr.hpp>
+
+#include <array>
 
 namespace zvo
 {
 
-inline glm::vec3 toGlm(const Vec3& v)
+template <typename Number> glm::vec<3, Number> toGlm(const std::array<Number, 3>& v)
 {
     return {v[0], v[1], v[2]};
 }
 
-inline glm::dvec3 toGlm(const DVec3& v)
+template <typename Number> glm::mat<4, 4, Number> toGlm(const std::array<Number, 16>& m)
 {
-    return {v[0], v[1], v[2]};
-}
-
-inline glm::mat4 toGlm(const Mat4& m)
-{
-    glm::mat4 result;
-    for (int i = 0; i < 16; ++i)
-    {
-        result[i / 4][i % 4] = m[static_cast<std::size_t>(i)];
-    }
-    return result;
-}
-
-inline glm::dmat4 toGlm(const DMat4& m)
-{
-    glm::dmat4 result;
-    for (int i = 0; i < 16; ++i)
-    {
-        result[i / 4][i % 4] = m[static_cast<std::size_t>(i)];
-    }
-    return result;
+    return glm::make_mat4(m.data());
 }
 
 inline Grid toGrid(const GridInfo& grid)

@@ -110,14 +110,18 @@ void DynamicTree::Impl::publish(vk::FrameGraph& graph)
     graph.update(table, 0, std::span(&values, 1));
 }
 
-DynamicTree::Impl& usable(const DynamicTree& tree)
+ShownTree shownIn(Recorder::Impl& recorder, const Tree& tree)
 {
-    DynamicTree::Impl& impl = contentOf(tree.impl(), "dynamic tree");
-    if (impl.made_in)
-    {
-        requireUsable(*impl.made_in, "dynamic tree");
-    }
-    return impl;
+    const Tree::Impl& impl = usable(tree);
+    requireSame(recorder.context, impl.context);
+    return {impl.fixed, impl.fixed.version, 0};
+}
+
+ShownTree shownIn(Recorder::Impl& recorder, DynamicTree& tree)
+{
+    DynamicTree::Impl& impl = usable(tree);
+    impl.enter(recorder);
+    return {impl.octree->tree(), impl.identity, impl.edit_count};
 }
 
 DynamicTree::DynamicTree(Recorder& recorder, Tree&& fixed, const DynamicTreeInfo& info)
@@ -175,14 +179,12 @@ bool DynamicTree::needsUpdate()
 
 bool DynamicTree::undo(Recorder& recorder)
 {
-    return usable(*this).change(recorder,
-                                [](DynamicOctree& octree, vk::FrameGraph& graph) { return octree.undo(graph); });
+    return usable(*this).change(recorder, &DynamicOctree::undo);
 }
 
 bool DynamicTree::redo(Recorder& recorder)
 {
-    return usable(*this).change(recorder,
-                                [](DynamicOctree& octree, vk::FrameGraph& graph) { return octree.redo(graph); });
+    return usable(*this).change(recorder, &DynamicOctree::redo);
 }
 
 bool DynamicTree::edit(Recorder& recorder, const BrushInfo& info)
@@ -204,14 +206,12 @@ void DynamicTree::endStroke()
 
 bool DynamicTree::undoEdit(Recorder& recorder)
 {
-    return usable(*this).changeEdits(recorder, [](DynamicOctree& octree, vk::FrameGraph& graph)
-                                     { return octree.undoEdit(graph); });
+    return usable(*this).changeEdits(recorder, &DynamicOctree::undoEdit);
 }
 
 bool DynamicTree::redoEdit(Recorder& recorder)
 {
-    return usable(*this).changeEdits(recorder, [](DynamicOctree& octree, vk::FrameGraph& graph)
-                                     { return octree.redoEdit(graph); });
+    return usable(*this).changeEdits(recorder, &DynamicOctree::redoEdit);
 }
 
 std::vector<UpdateStats> DynamicTree::takeUpdates()

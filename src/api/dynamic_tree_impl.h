@@ -9,6 +9,7 @@
 
 #include <cstdint>
 #include <deque>
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -17,6 +18,8 @@ namespace zvo
 
 struct ZVO_LOCAL DynamicTree::Impl
 {
+    static constexpr const char* kName = "dynamic tree"; // in messages
+
     Impl(Recorder::Impl& recorder, Tree&& fixed, const DynamicTreeInfo& info);
     ~Impl();
     Impl(const Impl&) = delete;
@@ -37,7 +40,7 @@ struct ZVO_LOCAL DynamicTree::Impl
                          {
                              try
                              {
-                                 const bool result = record(*octree, impl.graph);
+                                 const bool result = std::invoke(record, *octree, impl.graph);
                                  publish(impl.graph);
                                  return result;
                              }
@@ -85,7 +88,17 @@ struct ZVO_LOCAL DynamicTree::Impl
     const std::uint64_t identity = newVersion(); // no other tree's, nor any version's
 };
 
-/// Throws Error{Usage} for a dynamic tree that was lost with its frame, or moved from.
-DynamicTree::Impl& usable(const DynamicTree& tree);
+/// A tree as a recording shows it.
+struct ShownTree
+{
+    const DeviceTree& tree;
+    std::uint64_t identity;   // of a dynamic one, the version of another
+    std::uint64_t edit_count; // of a dynamic one
+};
+
+/// What the recording shows of a tree; a dynamic one then records into its frame. Throws Error{Usage} for a tree of
+/// another context, and as usable().
+ShownTree shownIn(Recorder::Impl& recorder, const Tree& tree);
+ShownTree shownIn(Recorder::Impl& recorder, DynamicTree& tree);
 
 } // namespace zvo

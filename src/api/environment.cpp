@@ -26,13 +26,6 @@ Sun sunOf(const SunInfo& info)
 
 } // namespace
 
-Environment::Impl& usable(const Environment& environment)
-{
-    Environment::Impl& impl = contentOf(environment.impl(), "environment");
-    requireUsable(*impl.made_in, "environment");
-    return impl;
-}
-
 Environment::Environment(Recorder& recorder)
 {
     recording(recorder,

@@ -13,6 +13,8 @@ namespace zvo
 
 struct ZVO_LOCAL Environment::Impl
 {
+    static constexpr const char* kName = "environment"; // in messages
+
     Impl(Recorder::Impl& recorder, DeviceEnvironment&& environment)
         : context(recorder.context), made_in(recorder.frame), frame(recorder.frame), light(std::move(environment))
     {
@@ -36,8 +38,5 @@ struct ZVO_LOCAL Environment::Impl
     std::shared_ptr<FrameState> frame; // the last one that uses it
     DeviceEnvironment light;
 };
-
-/// Throws Error{Usage} for an environment that was lost with its frame, or moved from.
-Environment::Impl& usable(const Environment& environment);
 
 } // namespace zvo

@@ -45,10 +45,14 @@ KeptLight::Impl::~Impl()
     }
 }
 
-void KeptLight::Impl::update(Recorder& recorder, const DeviceTree& tree, const Shown& now,
-                             Environment::Impl& environment, const CameraInfo& camera_info,
-                             const KeptFrameInfo& frame_info)
+template <typename AnyTree>
+void KeptLight::Impl::update(Recorder& recorder, AnyTree& any_tree, Environment& any_environment,
+                             const CameraInfo& camera_info, const KeptFrameInfo& frame_info)
 {
+    Environment::Impl& environment = usable(any_environment);
+    requireSame(context, recorder.impl().context, environment.context);
+    const ShownTree shown = shownIn(recorder.impl(), any_tree);
+    const DeviceTree& tree = shown.tree;
     const TraceCamera camera = traceCamera(viewOf(camera_info), tree.grid, info.height);
     FrameOptions options;
     options.integrator = Integrator::Cached;
@@ -66,7 +70,7 @@ void KeptLight::Impl::update(Recorder& recorder, const DeviceTree& tree, const S
                   environment.enter(impl.frame);
                   try
                   {
-                      follow(now);
+                      follow({shown.identity, shown.edit_count, tree.grid, tree.version});
                       if (info.faces != 0)
                       {
                           renderer->cache().reserveFaces(info.faces);
@@ -146,11 +150,6 @@ void KeptLight::Impl::requireShown(const DeviceTree& tree) const
     }
 }
 
-KeptLight::Impl& usable(const KeptLight& light)
-{
-    return contentOf(light.impl(), "kept light");
-}
-
 KeptLight::KeptLight(Context& context, const KeptLightInfo& info) : m_impl(std::make_unique<Impl>(context.impl(), info))
 {
 }
@@ -162,27 +161,13 @@ KeptLight& KeptLight::operator=(KeptLight&&) noexcept = default;
 void KeptLight::update(Recorder& recorder, const Tree& tree, Environment& environment, const CameraInfo& camera,
                        const KeptFrameInfo& info)
 {
-    Impl& light = usable(*this);
-    const Tree::Impl& impl = usable(tree);
-    Environment::Impl& outside = usable(environment);
-    requireSame(light.context, impl.context);
-    requireSame(light.context, outside.context);
-    requireSame(light.context, recorder.impl().context);
-    light.update(recorder, impl.fixed, {impl.fixed.version, 0, impl.fixed.grid, impl.fixed.version}, outside, camera,
-                 info);
+    usable(*this).update(recorder, tree, environment, camera, info);
 }
 
 void KeptLight::update(Recorder& recorder, DynamicTree& tree, Environment& environment, const CameraInfo& camera,
                        const KeptFrameInfo& info)
 {
-    Impl& light = usable(*this);
-    DynamicTree::Impl& impl = usable(tree);
-    Environment::Impl& outside = usable(environment);
-    requireSame(light.context, impl.context);
-    requireSame(light.context, outside.context);
-    impl.enter(recorder.impl());
-    const DeviceTree& shown = impl.octree->tree();
-    light.update(recorder, shown, {impl.identity, impl.edit_count, shown.grid, shown.version}, outside, camera, info);
+    usable(*this).update(recorder, tree, environment, camera, info);
 }
 
 std::uint64_t KeptLight::address() const

@@ -17,22 +17,16 @@ namespace zvo
 
 struct ZVO_LOCAL KeptLight::Impl
 {
-    /// Which voxels the light is of.
-    struct Shown
-    {
-        std::uint64_t tree;    // the identity of a dynamic one, the version of another
-        std::uint64_t changes; // of it, but for what moves: that has voxels of its own
-        Grid grid;
-        std::uint64_t version; // DeviceTree::version
-    };
+    static constexpr const char* kName = "kept light"; // in messages
 
     Impl(Context::Impl& context_impl, const KeptLightInfo& light_info);
     ~Impl();
     Impl(const Impl&) = delete;
     Impl& operator=(const Impl&) = delete;
 
-    void update(Recorder& recorder, const DeviceTree& tree, const Shown& now, Environment::Impl& environment,
-                const CameraInfo& camera_info, const KeptFrameInfo& frame_info);
+    template <typename AnyTree>
+    void update(Recorder& recorder, AnyTree& any_tree, Environment& any_environment, const CameraInfo& camera_info,
+                const KeptFrameInfo& frame_info);
 
     /// Throws Error{Usage} unless the last update was of this tree, as it is.
     void requireShown(const DeviceTree& tree) const;
@@ -47,6 +41,15 @@ struct ZVO_LOCAL KeptLight::Impl
     KeptLightStats newest = {};
 
 private:
+    // Which voxels the light is of.
+    struct Shown
+    {
+        std::uint64_t tree;    // ShownTree::identity
+        std::uint64_t changes; // of it, but for what moves: that has voxels of its own
+        Grid grid;
+        std::uint64_t version; // DeviceTree::version
+    };
+
     // The counts of an update, in a frame that is not known to be done.
     struct Report
     {
@@ -63,8 +66,5 @@ private:
     std::deque<Report> m_reports = {};
     std::vector<vk::BufferOf<gpu::uint>> m_free_counts = {};
 };
-
-/// Throws Error{Usage} for kept light that was moved from.
-KeptLight::Impl& usable(const KeptLight& light);
 
 } // namespace zvo

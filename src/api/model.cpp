@@ -160,13 +160,6 @@ Scene sceneOf(const ModelInfo& info)
 
 } // namespace
 
-const Model::Impl& usable(const Model& model)
-{
-    const Model::Impl& impl = contentOf(model.impl().get(), "model");
-    requireUsable(*impl.made_in, "model");
-    return impl;
-}
-
 Model::Model(Recorder& recorder, const ModelInfo& info)
 {
     Scene scene = sceneOf(info);

@@ -13,6 +13,8 @@ namespace zvo
 
 struct ZVO_LOCAL Model::Impl
 {
+    static constexpr const char* kName = "model"; // in messages
+
     Impl(Context::Impl& context_impl, std::shared_ptr<FrameState> frame)
         : context(context_impl), made_in(std::move(frame))
     {
@@ -26,8 +28,5 @@ struct ZVO_LOCAL Model::Impl
     std::shared_ptr<const DynamicMesh> mesh = nullptr;
     Bounds bounds = {};
 };
-
-/// Throws Error{Usage} for a model that was lost with its frame.
-const Model::Impl& usable(const Model& model);
 
 } // namespace zvo

@@ -88,9 +88,12 @@ struct ZVO_LOCAL Tracer::Impl
     Impl(const Impl&) = delete;
     Impl& operator=(const Impl&) = delete;
 
-    void trace(Recorder& recorder, const DeviceTree& tree, const CameraInfo& camera_info, const TraceInfo& info,
+    template <typename AnyTree>
+    void trace(Recorder& recorder, AnyTree& any_tree, const CameraInfo& camera_info, const TraceInfo& info,
                const ImageTarget& color, const DepthTarget* depth)
     {
+        requireSame(context, recorder.impl().context);
+        const DeviceTree& tree = shownIn(recorder.impl(), any_tree).tree;
         requireColor(color);
         if (depth != nullptr)
         {
@@ -116,9 +119,13 @@ struct ZVO_LOCAL Tracer::Impl
                   });
     }
 
-    void tracePaths(Recorder& recorder, const DeviceTree& tree, Environment::Impl& environment,
-                    const CameraInfo& camera_info, const PathInfo& info, const ImageTarget& color)
+    template <typename AnyTree>
+    void tracePaths(Recorder& recorder, AnyTree& any_tree, Environment& any_environment, const CameraInfo& camera_info,
+                    const PathInfo& info, const ImageTarget& color)
     {
+        Environment::Impl& environment = usable(any_environment);
+        requireSame(context, recorder.impl().context, environment.context);
+        const DeviceTree& tree = shownIn(recorder.impl(), any_tree).tree;
         requireColor(color);
         const TraceCamera camera = cameraOf(camera_info, tree);
         const FrameOptions options = optionsOf(info);
@@ -143,9 +150,14 @@ struct ZVO_LOCAL Tracer::Impl
                   });
     }
 
-    void traceKept(Recorder& recorder, const DeviceTree& tree, Environment::Impl& environment, KeptLight::Impl& light,
+    template <typename AnyTree>
+    void traceKept(Recorder& recorder, AnyTree& any_tree, Environment& any_environment, KeptLight& any_light,
                    const CameraInfo& camera_info, const KeptPictureInfo& info, const ImageTarget& color)
     {
+        Environment::Impl& environment = usable(any_environment);
+        KeptLight::Impl& light = usable(any_light);
+        requireSame(context, recorder.impl().context, environment.context, light.context);
+        const DeviceTree& tree = shownIn(recorder.impl(), any_tree).tree;
         requireColor(color);
         const TraceCamera camera = cameraOf(camera_info, tree);
         const FrameOptions options = optionsOf(info);
@@ -221,73 +233,37 @@ Tracer& Tracer::operator=(Tracer&&) noexcept = default;
 void Tracer::trace(Recorder& recorder, const Tree& tree, const CameraInfo& camera, const TraceInfo& info,
                    const ImageTarget& color, const DepthTarget* depth)
 {
-    Impl& tracer = contentOf(m_impl.get(), "tracer");
-    const Tree::Impl& impl = usable(tree);
-    requireSame(tracer.context, impl.context);
-    requireSame(tracer.context, recorder.impl().context);
-    tracer.trace(recorder, impl.fixed, camera, info, color, depth);
+    contentOf(m_impl.get(), "tracer").trace(recorder, tree, camera, info, color, depth);
 }
 
 void Tracer::trace(Recorder& recorder, DynamicTree& tree, const CameraInfo& camera, const TraceInfo& info,
                    const ImageTarget& color, const DepthTarget* depth)
 {
-    Impl& tracer = contentOf(m_impl.get(), "tracer");
-    DynamicTree::Impl& impl = usable(tree);
-    requireSame(tracer.context, impl.context);
-    impl.enter(recorder.impl());
-    tracer.trace(recorder, impl.octree->tree(), camera, info, color, depth);
+    contentOf(m_impl.get(), "tracer").trace(recorder, tree, camera, info, color, depth);
 }
 
 void Tracer::tracePaths(Recorder& recorder, const Tree& tree, Environment& environment, const CameraInfo& camera,
                         const PathInfo& info, const ImageTarget& color)
 {
-    Impl& tracer = contentOf(m_impl.get(), "tracer");
-    const Tree::Impl& impl = usable(tree);
-    Environment::Impl& light = usable(environment);
-    requireSame(tracer.context, impl.context);
-    requireSame(tracer.context, light.context);
-    requireSame(tracer.context, recorder.impl().context);
-    tracer.tracePaths(recorder, impl.fixed, light, camera, info, color);
+    contentOf(m_impl.get(), "tracer").tracePaths(recorder, tree, environment, camera, info, color);
 }
 
 void Tracer::tracePaths(Recorder& recorder, DynamicTree& tree, Environment& environment, const CameraInfo& camera,
                         const PathInfo& info, const ImageTarget& color)
 {
-    Impl& tracer = contentOf(m_impl.get(), "tracer");
-    DynamicTree::Impl& impl = usable(tree);
-    Environment::Impl& light = usable(environment);
-    requireSame(tracer.context, impl.context);
-    requireSame(tracer.context, light.context);
-    impl.enter(recorder.impl());
-    tracer.tracePaths(recorder, impl.octree->tree(), light, camera, info, color);
+    contentOf(m_impl.get(), "tracer").tracePaths(recorder, tree, environment, camera, info, color);
 }
 
 void Tracer::traceKept(Recorder& recorder, const Tree& tree, Environment& environment, KeptLight& light,
                        const CameraInfo& camera, const KeptPictureInfo& info, const ImageTarget& color)
 {
-    Impl& tracer = contentOf(m_impl.get(), "tracer");
-    const Tree::Impl& impl = usable(tree);
-    Environment::Impl& outside = usable(environment);
-    KeptLight::Impl& kept = usable(light);
-    requireSame(tracer.context, impl.context);
-    requireSame(tracer.context, outside.context);
-    requireSame(tracer.context, kept.context);
-    requireSame(tracer.context, recorder.impl().context);
-    tracer.traceKept(recorder, impl.fixed, outside, kept, camera, info, color);
+    contentOf(m_impl.get(), "tracer").traceKept(recorder, tree, environment, light, camera, info, color);
 }
 
 void Tracer::traceKept(Recorder& recorder, DynamicTree& tree, Environment& environment, KeptLight& light,
                        const CameraInfo& camera, const KeptPictureInfo& info, const ImageTarget& color)
 {
-    Impl& tracer = contentOf(m_impl.get(), "tracer");
-    DynamicTree::Impl& impl = usable(tree);
-    Environment::Impl& outside = usable(environment);
-    KeptLight::Impl& kept = usable(light);
-    requireSame(tracer.context, impl.context);
-    requireSame(tracer.context, outside.context);
-    requireSame(tracer.context, kept.context);
-    impl.enter(recorder.impl());
-    tracer.traceKept(recorder, impl.octree->tree(), outside, kept, camera, info, color);
+    contentOf(m_impl.get(), "tracer").traceKept(recorder, tree, environment, light, camera, info, color);
 }
 
 std::uint32_t Tracer::sampleCount() const

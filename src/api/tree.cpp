@@ -41,16 +41,6 @@ TreeInfo infoOf(const DeviceTree& tree)
     return tree_info;
 }
 
-Tree::Impl& usable(const Tree& tree)
-{
-    Tree::Impl& impl = contentOf(tree.impl(), "tree");
-    if (impl.made_in)
-    {
-        requireUsable(*impl.made_in, "tree");
-    }
-    return impl;
-}
-
 Tree::Impl::Impl(Context::Impl& context_impl, DeviceTree&& tree)
     : context(context_impl), fixed(std::move(tree)), tree_info(infoOf(fixed)), table(context.device, "tree table", 1)
 {

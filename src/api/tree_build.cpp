@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "api/checked.h"
-#include "api/job_run.h"
+#include "api/context_impl.h"
 #include "api/model_impl.h"
 #include "api/tree_impl.h"
 #include "core/attributes/attribute_pack.h"
+#include "core/base/step_job.h"
 #include "core/octree/octree_builder.h"
 #include "core/svdag/svdag_builder.h"
 #include "zvo/tree.h"
@@ -28,18 +29,84 @@ BuildOptions optionsOf(const TreeBuildInfo& info)
     return options;
 }
 
-// A sequence of jobs that make a tree, and a last step that writes the table by which shaders find it.
-class TreeJob : public StepJob
+} // namespace
+
+// Runs a sequence of jobs that make a tree, and a last step that writes the table by which shaders find it, in frames
+// of the host: a step in each. The next step follows when the host says that the device is done with the last one.
+struct ZVO_LOCAL TreeJob::Impl
 {
-public:
-    TreeJob(Context::Impl& context_impl, std::shared_ptr<FrameState> made_in, const char* source)
-        : context(context_impl), run(context_impl, *this, std::move(made_in), source)
+    // made_in: the frame in which the source was made; null: known to be done. source: what messages call it.
+    Impl(Context::Impl& context_impl, std::shared_ptr<FrameState> made_in, const char* source)
+        : context(context_impl), m_made_in(std::move(made_in)), m_source(source)
     {
     }
+    virtual ~Impl() = default;
+    Impl(const Impl&) = delete;
+    Impl& operator=(const Impl&) = delete;
 
-    [[nodiscard]] bool isDone() const override { return m_is_published; }
+    bool record(Recorder& recorder)
+    {
+        requireSame(context, recorder.impl().context);
+        if (isDone())
+        {
+            return false;
+        }
+        if (!m_frame)
+        {
+            recording(recorder, [&](Recorder::Impl& impl) { recordStep(impl.graph); });
+            m_frame = recorder.impl().frame;
+        }
+        return true;
+    }
 
-    void record(vk::FrameGraph& graph) override
+    bool isDone()
+    {
+        if (m_made_in)
+        {
+            requireUsable(*m_made_in, m_source);
+            m_made_in = m_made_in->is_done ? nullptr : m_made_in;
+        }
+        if (m_is_broken)
+        {
+            throw Error(ErrorCode::Usage, "nothing comes of this any more: an earlier call has said why");
+        }
+        if (m_frame && m_frame->is_lost)
+        {
+            m_frame.reset();
+        }
+        if (m_frame && m_frame->is_done)
+        {
+            const std::shared_ptr<FrameState> frame = std::exchange(m_frame, nullptr);
+            m_is_broken = true; // until the next line has succeeded
+            resumeStep(frame->times);
+            m_is_broken = false;
+        }
+        return m_is_published;
+    }
+
+    [[nodiscard]] bool isBroken() const { return m_is_broken || (m_made_in && m_made_in->is_lost); }
+
+    std::unique_ptr<Tree::Impl> take()
+    {
+        if (!isDone() || !m_tree)
+        {
+            throw Error(ErrorCode::Usage, "the tree is not there, or was taken already");
+        }
+        return std::move(m_tree);
+    }
+
+    Context::Impl& context;
+    std::map<std::string, std::uint64_t> dropped = {};
+
+protected:
+    void begin(StepJob& part) { m_part = &part; }
+    void setTree(DeviceTree&& tree) { m_tree = std::make_unique<Tree::Impl>(context, std::move(tree)); }
+
+private:
+    // Called when a part is done: begins the next one, or sets the tree.
+    virtual void endPart() = 0;
+
+    void recordStep(vk::FrameGraph& graph)
     {
         if (m_tree)
         {
@@ -51,7 +118,7 @@ public:
         }
     }
 
-    void resume(std::vector<vk::PassTime> passes) override
+    void resumeStep(const std::vector<vk::PassTime>& passes)
     {
         if (m_tree)
         {
@@ -60,7 +127,7 @@ public:
         }
         if (!m_part->isDone()) // the part of an empty octree is done from the start
         {
-            m_part->resume(std::move(passes));
+            m_part->resume(passes);
         }
         if (m_part->isDone())
         {
@@ -68,44 +135,60 @@ public:
         }
     }
 
-    std::unique_ptr<Tree::Impl> take()
-    {
-        if (!run.isDone() || !m_tree)
-        {
-            throw Error(ErrorCode::Usage, "the tree is not there, or was taken already");
-        }
-        return std::move(m_tree);
-    }
-
-    Context::Impl& context;
-    JobRun run;
-
-protected:
-    void begin(StepJob& part) { m_part = &part; }
-    void setTree(DeviceTree&& tree) { m_tree = std::make_unique<Tree::Impl>(context, std::move(tree)); }
-
-private:
-    // Called when a part is done: begins the next one, or sets the tree.
-    virtual void endPart() = 0;
-
+    std::shared_ptr<FrameState> m_made_in; // null: known to be done
+    const char* m_source;
+    std::shared_ptr<FrameState> m_frame = nullptr; // of the step that is under way
     StepJob* m_part = nullptr;
-    std::unique_ptr<Tree::Impl> m_tree;
+    std::unique_ptr<Tree::Impl> m_tree = nullptr;
     bool m_is_published = false;
+    bool m_is_broken = false;
 };
 
-} // namespace
+TreeJob::TreeJob(std::unique_ptr<Impl> impl, const char* name) : m_impl(std::move(impl)), m_name(name) {}
 
-struct ZVO_LOCAL TreeBuild::Impl final : TreeJob
+TreeJob::~TreeJob() = default;
+TreeJob::TreeJob(TreeJob&&) noexcept = default;
+TreeJob& TreeJob::operator=(TreeJob&&) noexcept = default;
+
+bool TreeJob::record(Recorder& recorder)
 {
-    Impl(Context::Impl& context_impl, const Model::Impl& model, const TreeBuildInfo& info)
-        : TreeJob(context_impl, model.made_in, "model"), mesh(model.mesh), format(info.format),
+    return contentOf(m_impl.get(), m_name).record(recorder);
+}
+
+bool TreeJob::isDone()
+{
+    return contentOf(m_impl.get(), m_name).isDone();
+}
+
+bool TreeJob::isBroken() const
+{
+    return contentOf(m_impl.get(), m_name).isBroken();
+}
+
+Tree TreeJob::take()
+{
+    return Tree(contentOf(m_impl.get(), m_name).take());
+}
+
+const std::map<std::string, std::uint64_t>& TreeJob::dropped() const
+{
+    return contentOf(m_impl.get(), m_name).dropped;
+}
+
+namespace
+{
+
+struct Build final : TreeJob::Impl
+{
+    Build(Context::Impl& context_impl, const Model::Impl& model, const TreeBuildInfo& info)
+        : Impl(context_impl, model.made_in, "model"), mesh(model.mesh), format(info.format),
           builder(std::make_unique<OctreeBuilder>(context_impl.device, mesh->uploaded, checkedGrid(info.grid),
                                                   optionsOf(info)))
     {
         begin(*builder);
     }
 
-    ~Impl() override
+    ~Build() override
     {
         context.deleteLater(std::move(builder));
         context.deleteLater(std::move(mesh));
@@ -133,65 +216,18 @@ struct ZVO_LOCAL TreeBuild::Impl final : TreeJob
     std::unique_ptr<OctreeBuilder> builder;
     BuildResult built;
     std::unique_ptr<TreePacker> packer; // of `built`; null until that is there
-    std::map<std::string, std::uint64_t> dropped;
 };
 
-namespace
+struct Compression final : TreeJob::Impl
 {
-
-const Model::Impl& buildable(Context& context, const Model& model)
-{
-    const Model::Impl& impl = usable(model);
-    requireSame(context.impl(), impl.context);
-    return impl;
-}
-
-} // namespace
-
-TreeBuild::TreeBuild(Context& context, const Model& model, const TreeBuildInfo& info)
-    : m_impl(std::make_unique<Impl>(context.impl(), buildable(context, model), info))
-{
-}
-
-TreeBuild::~TreeBuild() = default;
-TreeBuild::TreeBuild(TreeBuild&&) noexcept = default;
-TreeBuild& TreeBuild::operator=(TreeBuild&&) noexcept = default;
-
-bool TreeBuild::record(Recorder& recorder)
-{
-    return contentOf(m_impl.get(), "build").run.record(recorder);
-}
-
-bool TreeBuild::isDone()
-{
-    return contentOf(m_impl.get(), "build").run.isDone();
-}
-
-bool TreeBuild::isBroken() const
-{
-    return contentOf(m_impl.get(), "build").run.isBroken();
-}
-
-Tree TreeBuild::take()
-{
-    return Tree(contentOf(m_impl.get(), "build").take());
-}
-
-const std::map<std::string, std::uint64_t>& TreeBuild::dropped() const
-{
-    return contentOf(m_impl.get(), "build").dropped;
-}
-
-struct ZVO_LOCAL TreeCompression::Impl final : TreeJob
-{
-    Impl(Context::Impl& context_impl, Tree&& octree)
-        : TreeJob(context_impl, octree.impl()->made_in, "octree"), source(octree.release()),
+    Compression(Context::Impl& context_impl, Tree&& octree)
+        : Impl(context_impl, octree.impl()->made_in, "octree"), source(octree.release()),
           builder(std::make_unique<SvdagBuilder>(context_impl.device, std::move(source->fixed), CompressOptions{}))
     {
         begin(*builder);
     }
 
-    ~Impl() override
+    ~Compression() override
     {
         context.deleteLater(std::move(builder));
         source.reset(); // it deletes its buffers later
@@ -203,8 +239,12 @@ struct ZVO_LOCAL TreeCompression::Impl final : TreeJob
     std::unique_ptr<SvdagBuilder> builder;
 };
 
-namespace
+const Model::Impl& buildable(Context& context, const Model& model)
 {
+    const Model::Impl& impl = usable(model);
+    requireSame(context.impl(), impl.context);
+    return impl;
+}
 
 Tree&& compressible(Context& context, Tree&& octree)
 {
@@ -219,33 +259,14 @@ Tree&& compressible(Context& context, Tree&& octree)
 
 } // namespace
 
+TreeBuild::TreeBuild(Context& context, const Model& model, const TreeBuildInfo& info)
+    : TreeJob(std::make_unique<Build>(context.impl(), buildable(context, model), info), "build")
+{
+}
+
 TreeCompression::TreeCompression(Context& context, Tree&& octree)
-    : m_impl(std::make_unique<Impl>(context.impl(), compressible(context, std::move(octree))))
+    : TreeJob(std::make_unique<Compression>(context.impl(), compressible(context, std::move(octree))), "compression")
 {
-}
-
-TreeCompression::~TreeCompression() = default;
-TreeCompression::TreeCompression(TreeCompression&&) noexcept = default;
-TreeCompression& TreeCompression::operator=(TreeCompression&&) noexcept = default;
-
-bool TreeCompression::record(Recorder& recorder)
-{
-    return contentOf(m_impl.get(), "compression").run.record(recorder);
-}
-
-bool TreeCompression::isDone()
-{
-    return contentOf(m_impl.get(), "compression").run.isDone();
-}
-
-bool TreeCompression::isBroken() const
-{
-    return contentOf(m_impl.get(), "compression").run.isBroken();
-}
-
-Tree TreeCompression::take()
-{
-    return Tree(contentOf(m_impl.get(), "compression").take());
 }
 
 } // namespace zvo

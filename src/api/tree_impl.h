@@ -15,6 +15,8 @@ namespace zvo
 
 struct ZVO_LOCAL Tree::Impl
 {
+    static constexpr const char* kName = "tree"; // in messages
+
     Impl(Context::Impl& context_impl, DeviceTree&& tree);
     ~Impl()
     {
@@ -36,8 +38,5 @@ struct ZVO_LOCAL Tree::Impl
 
 /// The properties of a tree.
 TreeInfo infoOf(const DeviceTree& tree);
-
-/// Throws Error{Usage} for a tree that was lost with its frame, or taken over.
-Tree::Impl& usable(const Tree& tree);
 
 } // namespace zvo

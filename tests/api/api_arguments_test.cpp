@@ -166,7 +166,7 @@ TEST(ApiTargets, NothingIsRecordedWhereOneOfThemWillNotDo)
     const auto nothing = [&](const std::function<void(ImageTarget&, DepthTarget&)>& spoil, const std::string& word)
     {
         const std::size_t before = tracing([](ImageTarget&, DepthTarget&) {}, "");
-        host.frame([](Recorder&, VkCommandBuffer) {});
+        host.frame([](Recorder&) {});
         EXPECT_EQ(tracing(spoil, word), before) << "passes of an older frame: this one has none; " << word;
     };
     for (const VkFormat format : {VK_FORMAT_D32_SFLOAT, VK_FORMAT_D32_SFLOAT_S8_UINT})
@@ -217,47 +217,37 @@ TEST_F(ApiArguments, HandlesAreNotNull)
     expectUsage([&] { (void)query(nullptr, info.instance, info.physical_device); }, "vkGetInstanceProcAddr");
     expectUsage([&] { (void)query(info.get_instance_proc_addr, VK_NULL_HANDLE, info.physical_device); }, "VkInstance");
     expectUsage([&] { (void)query(info.get_instance_proc_addr, info.instance, VK_NULL_HANDLE); }, "VkPhysicalDevice");
-    m_host.frame([](Recorder&, VkCommandBuffer) {}); // the context still works
+    m_host.frame([](Recorder&) {}); // the context still works
 }
 
 TEST_F(ApiArguments, ObjectsAndInstancesStandByAffineTransforms)
 {
     const Model model = this->model();
-    Tree fixed = m_host.build(model, {.grid = test::apiGrid(4)});
-    std::optional<DynamicTree> tree;
-    DynamicObjectId object = 0;
-    m_host.frame(
-        [&](Recorder& recorder, VkCommandBuffer)
-        {
-            tree.emplace(recorder, std::move(fixed), DynamicTreeInfo{});
-            object = tree->addObject(recorder, model, kIdentity);
-        });
+    auto tree = m_host.make<DynamicTree>(m_host.build(model, {.grid = test::apiGrid(4)}), DynamicTreeInfo{});
+    const DynamicObjectId object = m_host.add(tree, model, kIdentity);
     for (const Mat4& transform : wrongTransforms())
     {
-        m_host.frame(
-            [&](Recorder& recorder, VkCommandBuffer) {
-                expectUsage([&] { tree->addObject(recorder, model, transform); }, "the transform of a dynamic object");
-            });
-        expectUsage([&] { tree->setTransform(object, transform); }, "the transform of a dynamic object");
+        expectUsage([&] { m_host.add(tree, model, transform); }, "the transform of a dynamic object");
+        expectUsage([&] { tree.setTransform(object, transform); }, "the transform of a dynamic object");
         const std::vector<InstanceInfo> instances = {{0, transform}};
         ModelInfo info = modelInfo();
         info.instances = instances;
         expectUsage([&] { m_host.upload(info); }, "the transform of instance 0");
     }
-    m_host.frame([&](Recorder& recorder, VkCommandBuffer) { tree->update(recorder); });
-    EXPECT_EQ(m_host.picture(*tree, test::apiCamera()).size(), std::size_t{m_host.kWidth} * m_host.kHeight);
+    m_host.frame([&](Recorder& recorder) { tree.update(recorder); });
+    EXPECT_EQ(m_host.picture(tree, test::apiCamera()).size(), std::size_t{m_host.kWidth} * m_host.kHeight);
 
     m_host.frame(
-        [&](Recorder& recorder, VkCommandBuffer)
+        [&](Recorder& recorder)
         {
             for (const double budget : {-1.0, double{kNan}})
             {
-                expectUsage([&] { tree->update(recorder, budget); }, "budget_ms");
+                expectUsage([&] { tree.update(recorder, budget); }, "budget_ms");
             }
             for (const int value : {-1, 3, 7})
             {
-                expectUsage([&] { tree->edit(recorder, {.shape = numbered<BrushShape>(value)}); }, "BrushInfo::shape");
-                expectUsage([&] { tree->edit(recorder, {.action = numbered<BrushAction>(value)}); },
+                expectUsage([&] { tree.edit(recorder, {.shape = numbered<BrushShape>(value)}); }, "BrushInfo::shape");
+                expectUsage([&] { tree.edit(recorder, {.action = numbered<BrushAction>(value)}); },
                             "BrushInfo::action");
             }
         });
@@ -282,10 +272,12 @@ TEST_F(ApiArguments, EnumerationsHaveTheirValues)
         info.materials = materials;
         expectUsage([&] { m_host.upload(info); }, "MaterialInfo::alpha_mode");
         const std::vector<std::uint8_t> texel(4);
-        const std::vector<TextureInfo> textures = {{1, 1, texel, numbered<WrapMode>(value), WrapMode::Repeat}};
+        TextureInfo texture = {1, 1, texel, numbered<WrapMode>(value), WrapMode::Repeat};
         info = modelInfo();
-        info.textures = textures;
+        info.textures = {&texture, 1};
         expectUsage([&] { m_host.upload(info); }, "TextureInfo::wrap_u");
+        std::swap(texture.wrap_u, texture.wrap_v);
+        expectUsage([&] { m_host.upload(info); }, "TextureInfo::wrap_v");
     }
 }
 
@@ -321,7 +313,7 @@ TEST_F(ApiArguments, DynamicTreesHaveNumbersThatTheyCanKeep)
     Tree fixed = m_host.build(model(), {.grid = test::apiGrid(4)});
     const auto making = [&](const DynamicTreeInfo& info, const std::string& word)
     {
-        m_host.frame([&](Recorder& recorder, VkCommandBuffer)
+        m_host.frame([&](Recorder& recorder)
                      { expectUsage([&] { DynamicTree(recorder, std::move(fixed), info); }, word); });
     };
     for (const std::uint32_t count : {0U, 17U, 0x40000001U, UINT32_MAX})
@@ -340,8 +332,7 @@ TEST_F(ApiArguments, DynamicTreesHaveNumbersThatTheyCanKeep)
         making({.merge = numbered<MergeRule>(value)}, "DynamicTreeInfo::merge");
     }
     EXPECT_GT(fixed.info().voxel_count, 0U); // the tree stays as it is
-    m_host.frame([&](Recorder& recorder, VkCommandBuffer)
-                 { DynamicTree(recorder, std::move(fixed), {.frames_in_flight = 16}); });
+    m_host.frame([&](Recorder& recorder) { DynamicTree(recorder, std::move(fixed), {.frames_in_flight = 16}); });
 }
 
 TEST(ApiTimes, PassesHaveABound)
@@ -355,7 +346,7 @@ TEST(ApiTimes, PassesHaveABound)
                     "timed_passes_per_frame");
     }
     test::EmbeddingHost host(options, [](ContextInfo& info) { info.timed_passes_per_frame = 0x10000; });
-    host.frame([](Recorder&, VkCommandBuffer) {});
+    host.frame([](Recorder&) {});
 }
 
 TEST(ApiTuning, IsTakenOrRefused)
@@ -364,13 +355,13 @@ TEST(ApiTuning, IsTakenOrRefused)
     { return test::EmbeddingHost({}, [&](ContextInfo& info) { info.tuning = tuning; }); };
     expectUsage([&] { hostWith("rows=1"); }, "ContextInfo::tuning rows=1");
     expectUsage([&] { hostWith("row-columns=1"); }, "ContextInfo::tuning row-columns=1");
-    hostWith("row-columns=64,path-form=kernel").frame([](Recorder&, VkCommandBuffer) {});
+    hostWith("row-columns=64,path-form=kernel").frame([](Recorder&) {});
 }
 
 TEST_F(ApiArguments, TreesAreMadeVisibleToShaders)
 {
     m_host.frame(
-        [&](Recorder& recorder, VkCommandBuffer)
+        [&](Recorder& recorder)
         {
             recorder.makeVisible(0);
             for (const VkPipelineStageFlags2 stages :

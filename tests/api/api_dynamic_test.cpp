@@ -34,13 +34,7 @@ protected:
         const Model uploaded = m_host.upload(model.info());
         m_scale = uploaded.emissionScale();
         Tree tree = m_host.build(uploaded, {.grid = test::apiGrid(), .keep_sums = true});
-        if (!as_dag)
-        {
-            return tree;
-        }
-        TreeCompression compression(m_host.context, std::move(tree));
-        m_host.finish(compression);
-        return compression.take();
+        return as_dag ? m_host.compress(std::move(tree)) : std::move(tree);
     }
 
     Model ball()
@@ -53,22 +47,11 @@ protected:
 
     DynamicTree dynamicTree(Tree&& fixed, std::size_t history_entries = 8)
     {
-        std::optional<DynamicTree> tree;
         DynamicTreeInfo info;
         info.merge = MergeRule::Average;
         info.history_entries = history_entries;
         info.emission_scale = m_scale;
-        m_host.frame([&](Recorder& recorder, VkCommandBuffer) { tree.emplace(recorder, std::move(fixed), info); });
-        return std::move(*tree);
-    }
-
-    // Records frames until what is shown is complete.
-    void update(DynamicTree& tree)
-    {
-        do
-        {
-            m_host.frame([&](Recorder& recorder, VkCommandBuffer) { tree.update(recorder); });
-        } while (tree.needsUpdate());
+        return m_host.make<DynamicTree>(std::move(fixed), info);
     }
 
     test::EmbeddingHost m_host;
@@ -82,15 +65,13 @@ TEST_F(ApiDynamic, EqualsARebuildAndUndoEqualsBefore)
         DynamicTree tree = dynamicTree(fixedTree(as_dag));
         const std::uint64_t address = tree.address();
         const auto still = m_host.picture(tree, test::apiCamera());
-        DynamicObjectId object = 0;
         const Model model = ball();
-        m_host.frame([&](Recorder& recorder, VkCommandBuffer)
-                     { object = tree.addObject(recorder, model, test::movedBy(2, 5, 5)); });
+        const DynamicObjectId object = m_host.add(tree, model, test::movedBy(2, 5, 5));
         std::vector<std::vector<std::uint32_t>> pictures = {still};
         for (const float x : {2.0F, 4.5F, 8.25F})
         {
             tree.setTransform(object, test::movedBy(x, 5, 5));
-            update(tree);
+            m_host.update(tree);
             pictures.push_back(m_host.picture(tree, test::apiCamera()));
             EXPECT_EQ(pictures.back(), rebuilt(x)) << x << (as_dag ? " above a DAG" : " above an octree");
         }
@@ -100,13 +81,13 @@ TEST_F(ApiDynamic, EqualsARebuildAndUndoEqualsBefore)
         EXPECT_GT(stats.back().moving_count, 100U);
         for (const std::size_t step : {2U, 1U})
         {
-            m_host.frame([&](Recorder& recorder, VkCommandBuffer) { EXPECT_TRUE(tree.undo(recorder)); });
+            m_host.frame([&](Recorder& recorder) { EXPECT_TRUE(tree.undo(recorder)); });
             EXPECT_EQ(m_host.picture(tree, test::apiCamera()), pictures[step]);
         }
-        m_host.frame([&](Recorder& recorder, VkCommandBuffer) { EXPECT_TRUE(tree.redo(recorder)); });
+        m_host.frame([&](Recorder& recorder) { EXPECT_TRUE(tree.redo(recorder)); });
         EXPECT_EQ(m_host.picture(tree, test::apiCamera()), pictures[2]);
         tree.removeObject(object);
-        update(tree);
+        m_host.update(tree);
         EXPECT_EQ(m_host.picture(tree, test::apiCamera()), still);
         EXPECT_EQ(tree.address(), address);
         EXPECT_THROW(tree.setTransform(object, kIdentity), Error);
@@ -118,18 +99,14 @@ TEST_F(ApiDynamic, BrushesChangeWhatStandsAndAreUndone)
     DynamicTree tree = dynamicTree(fixedTree(false));
     const auto before = m_host.picture(tree, test::apiCamera());
     const BrushInfo brush = {.action = BrushAction::Fill, .center = {44, 44, 44}, .radius = 9, .color = 0x2080ff};
-    bool is_done = false;
-    while (!is_done)
-    {
-        m_host.frame([&](Recorder& recorder, VkCommandBuffer) { is_done = tree.edit(recorder, brush); });
-    }
+    m_host.edit(tree, brush);
     tree.endStroke();
     const auto after = m_host.picture(tree, test::apiCamera());
     EXPECT_NE(after, before);
-    m_host.frame([&](Recorder& recorder, VkCommandBuffer) { EXPECT_TRUE(tree.undoEdit(recorder)); });
+    m_host.frame([&](Recorder& recorder) { EXPECT_TRUE(tree.undoEdit(recorder)); });
     EXPECT_EQ(m_host.picture(tree, test::apiCamera()), before);
-    m_host.frame([&](Recorder& recorder, VkCommandBuffer) { EXPECT_FALSE(tree.undoEdit(recorder)); });
-    m_host.frame([&](Recorder& recorder, VkCommandBuffer) { EXPECT_TRUE(tree.redoEdit(recorder)); });
+    m_host.frame([&](Recorder& recorder) { EXPECT_FALSE(tree.undoEdit(recorder)); });
+    m_host.frame([&](Recorder& recorder) { EXPECT_TRUE(tree.redoEdit(recorder)); });
     EXPECT_EQ(m_host.picture(tree, test::apiCamera()), after);
 }
 
@@ -137,16 +114,14 @@ TEST_F(ApiDynamic, ALostFrameTakesNothingAlong)
 {
     DynamicTree tree = dynamicTree(fixedTree(false));
     const Model model = ball();
-    DynamicObjectId object = 0;
-    m_host.frame([&](Recorder& recorder, VkCommandBuffer)
-                 { object = tree.addObject(recorder, model, test::movedBy(2, 5, 5)); });
-    update(tree);
+    const DynamicObjectId object = m_host.add(tree, model, test::movedBy(2, 5, 5));
+    m_host.update(tree);
     const auto before = m_host.picture(tree, test::apiCamera());
     tree.setTransform(object, test::movedBy(8.25F, 5, 5));
-    m_host.lostFrame([&](Recorder& recorder, VkCommandBuffer) { tree.update(recorder); });
+    m_host.lostFrame([&](Recorder& recorder) { tree.update(recorder); });
     EXPECT_EQ(m_host.picture(tree, test::apiCamera()), before);
     EXPECT_TRUE(tree.needsUpdate());
-    update(tree);
+    m_host.update(tree);
     EXPECT_EQ(m_host.picture(tree, test::apiCamera()), rebuilt(8.25F));
 }
 
@@ -154,31 +129,28 @@ TEST_F(ApiDynamic, AnObjectOfALostFrameIsLostAlone)
 {
     DynamicTree tree = dynamicTree(fixedTree(false));
     const Model model = ball();
-    update(tree);
+    m_host.update(tree);
     const auto before = m_host.picture(tree, test::apiCamera());
     DynamicObjectId lost = 0;
     DynamicObjectId removed = 0;
     m_host.lostFrame(
-        [&](Recorder& recorder, VkCommandBuffer)
+        [&](Recorder& recorder)
         {
             lost = tree.addObject(recorder, model, test::movedBy(2, 5, 5));
             removed = tree.addObject(recorder, model, test::movedBy(3, 5, 5));
             tree.update(recorder);
             tree.removeObject(removed);
         });
-    update(tree);
+    m_host.update(tree);
     EXPECT_EQ(m_host.picture(tree, test::apiCamera()), before);
     EXPECT_THROW(tree.setTransform(lost, test::movedBy(4, 5, 5)), Error);
     EXPECT_THROW(tree.removeObject(lost), Error);
     EXPECT_THROW(tree.removeObject(removed), Error);
 
-    DynamicObjectId object = 0;
-    m_host.frame([&](Recorder& recorder, VkCommandBuffer)
-                 { object = tree.addObject(recorder, model, test::movedBy(2, 5, 5)); });
-    m_host.lostFrame([&](Recorder& recorder, VkCommandBuffer)
-                     { tree.update(recorder); }); // the object was made in an earlier frame
+    const DynamicObjectId object = m_host.add(tree, model, test::movedBy(2, 5, 5));
+    m_host.lostFrame([&](Recorder& recorder) { tree.update(recorder); }); // the object was made in an earlier frame
     tree.setTransform(object, test::movedBy(8.25F, 5, 5));
-    update(tree);
+    m_host.update(tree);
     EXPECT_EQ(m_host.picture(tree, test::apiCamera()), rebuilt(8.25F));
 }
 
@@ -186,7 +158,7 @@ TEST_F(ApiDynamic, WhatWasMadeInALostFrameIsLost)
 {
     const test::HostModel description(test::apiScene());
     std::optional<Model> lost;
-    m_host.lostFrame([&](Recorder& recorder, VkCommandBuffer) { lost.emplace(recorder, description.info()); });
+    m_host.lostFrame([&](Recorder& recorder) { lost.emplace(recorder, description.info()); });
     EXPECT_THROW(m_host.build(*lost, {.grid = test::apiGrid()}), Error);
 
     const Model model = m_host.upload(description.info());
@@ -194,8 +166,8 @@ TEST_F(ApiDynamic, WhatWasMadeInALostFrameIsLost)
     std::uint32_t steps = 0;
     for (; !build.isDone(); ++steps) // each step is lost once
     {
-        m_host.lostFrame([&](Recorder& recorder, VkCommandBuffer) { build.record(recorder); });
-        m_host.frame([&](Recorder& recorder, VkCommandBuffer) { build.record(recorder); });
+        m_host.lostFrame([&](Recorder& recorder) { build.record(recorder); });
+        m_host.frame([&](Recorder& recorder) { build.record(recorder); });
     }
     EXPECT_GE(steps, 4U);
     Tree tree = build.take();
@@ -204,7 +176,7 @@ TEST_F(ApiDynamic, WhatWasMadeInALostFrameIsLost)
 
     std::optional<DynamicTree> dynamic;
     m_host.lostFrame(
-        [&](Recorder& recorder, VkCommandBuffer)
+        [&](Recorder& recorder)
         { dynamic.emplace(recorder, std::move(tree), DynamicTreeInfo{.emission_scale = model.emissionScale()}); });
     EXPECT_THROW(m_host.picture(*dynamic, test::apiCamera()), Error);
 }
@@ -213,9 +185,7 @@ TEST_F(ApiDynamic, FramesInFlightKeepWhatTheyUse)
 {
     DynamicTree tree = dynamicTree(fixedTree(false), 1);
     const Model model = ball();
-    DynamicObjectId object = 0;
-    m_host.frame([&](Recorder& recorder, VkCommandBuffer)
-                 { object = tree.addObject(recorder, model, test::movedBy(2, 5, 5)); });
+    const DynamicObjectId object = m_host.add(tree, model, test::movedBy(2, 5, 5));
     Tracer tracer(m_host.context, m_host.kWidth, m_host.kHeight, VK_FORMAT_R8G8B8A8_UNORM);
     test::TargetImage image(m_host.device, VK_FORMAT_R8G8B8A8_UNORM, m_host.kWidth, m_host.kHeight);
     std::uint64_t frame = m_host.last_frame;
@@ -238,7 +208,7 @@ TEST_F(ApiDynamic, FramesInFlightKeepWhatTheyUse)
         }
     }
     m_host.last_frame = frame;
-    update(tree);
+    m_host.update(tree);
     EXPECT_EQ(m_host.picture(tree, test::apiCamera()), rebuilt(7.5F));
 }
 

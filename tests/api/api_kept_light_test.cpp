@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Light that is kept on voxels, as a host has it in the course of its frames.
 #include "api/context_impl.h"
+#include "api_paths.h"
 #include "api_scene.h"
 #include "core/frame/frame_renderer.h"
 #include "core/radiance/radiance_view.h"
@@ -129,16 +130,12 @@ private:
     RadianceCache m_cache{test::device().device()};
 };
 
-// All of these tests have one host, because the light takes many kernels.
-class ApiKeptLight : public testing::Test
+class ApiKeptLight : public test::ApiPaths
 {
 protected:
     static void SetUpTestSuite()
     {
-        test::failCall(UINT64_MAX);
-        test::HostOptions options;
-        options.zvo_functions = test::failingVulkan();
-        s_host = std::make_unique<test::EmbeddingHost>(options);
+        test::ApiPaths::SetUpTestSuite();
         s_copy = std::make_unique<test::HostKernel>(s_host->device, "host/kept_faces", sizeof(FacesPush));
         s_copied = std::make_unique<test::HostBuffer>(s_host->device, (1 + kSlots) * sizeof(gpu::KeptFace));
     }
@@ -147,31 +144,7 @@ protected:
     {
         s_copied.reset();
         s_copy.reset();
-        s_host.reset();
-    }
-
-    ~ApiKeptLight() override
-    {
-        test::failCall(UINT64_MAX);
-        m_host.submits_failed = false;
-    }
-
-    static const test::HostModel& model()
-    {
-        static const test::HostModel result(test::apiScene());
-        return result;
-    }
-
-    Tree octree(std::uint32_t depth = 5)
-    {
-        return m_host.build(m_host.upload(model().info()), {.grid = test::apiGrid(depth)});
-    }
-
-    Environment sky()
-    {
-        std::optional<Environment> result;
-        m_host.frame([&](Recorder& recorder, VkCommandBuffer) { result.emplace(recorder); });
-        return std::move(*result);
+        test::ApiPaths::TearDownTestSuite();
     }
 
     template <typename AnyTree>
@@ -180,7 +153,7 @@ protected:
     {
         for (std::uint32_t i = 0; i < count; ++i)
         {
-            m_host.frame([&](Recorder& recorder, VkCommandBuffer)
+            m_host.frame([&](Recorder& recorder)
                          { light.update(recorder, tree, environment, test::apiCamera(), info); });
         }
     }
@@ -205,13 +178,10 @@ protected:
         return found();
     }
 
-    static std::unique_ptr<test::EmbeddingHost> s_host;
     static std::unique_ptr<test::HostKernel> s_copy;
     static std::unique_ptr<test::HostBuffer> s_copied;
-    test::EmbeddingHost& m_host = *s_host;
 };
 
-std::unique_ptr<test::EmbeddingHost> ApiKeptLight::s_host;
 std::unique_ptr<test::HostKernel> ApiKeptLight::s_copy;
 std::unique_ptr<test::HostBuffer> ApiKeptLight::s_copied;
 
@@ -227,9 +197,7 @@ TEST_F(ApiKeptLight, IsThatOfTheEngineOfOctreesAndDags)
     {
         if (as_dag)
         {
-            TreeCompression compression(m_host.context, std::move(tree));
-            m_host.finish(compression);
-            tree = compression.take();
+            tree = m_host.compress(std::move(tree));
         }
         KeptLight light(m_host.context, kGrid);
         frames(light, tree, environment, 12, {.rays = 700, .seed = 3});
@@ -247,7 +215,6 @@ TEST_F(ApiKeptLight, IsThatOfTheEngineOfOctreesAndDags)
 
 TEST_F(ApiKeptLight, PicturesAreThoseOfTheEngine)
 {
-    constexpr VkFormat kFormat = VK_FORMAT_R8G8B8A8_UNORM;
     const std::uint32_t width = m_host.kWidth; // larger than the light's own grid
     const std::uint32_t height = m_host.kHeight;
     const Tree tree = octree();
@@ -255,17 +222,13 @@ TEST_F(ApiKeptLight, PicturesAreThoseOfTheEngine)
     KeptLight light(m_host.context, kGrid);
     Tracer tracer(m_host.context, width, height, kFormat);
     test::TargetImage image(m_host.device, kFormat, width, height);
-    const auto trace = [&](const CameraInfo& camera, const KeptPictureInfo& info)
+    const auto traceOf = [&](const Tree& of, const CameraInfo& camera, const KeptPictureInfo& info)
     {
-        m_host.frame(
-            [&](Recorder& recorder, VkCommandBuffer commands)
-            {
-                image.beginCopies(commands);
-                tracer.traceKept(recorder, tree, environment, light, camera, info, image.target());
-                image.read(commands);
-            });
-        return image.words();
+        return m_host.picture(image, [&](Recorder& recorder, const ImageTarget& target)
+                              { tracer.traceKept(recorder, of, environment, light, camera, info, target); });
     };
+    const auto trace = [&](const CameraInfo& camera, const KeptPictureInfo& info)
+    { return traceOf(tree, camera, info); };
     expectUsage([&] { trace(test::apiCamera(), {}); }, "KeptLight::update() comes first");
     frames(light, tree, environment, 6);
     KeptEngine engine;
@@ -278,16 +241,8 @@ TEST_F(ApiKeptLight, PicturesAreThoseOfTheEngine)
               engine.picture(expected, {21, 17.5, 25}, width, height, {false, 0.5F}));
     expectUsage([&] { trace(test::apiCamera(), {.exposure = -1}); }, "KeptPictureInfo::exposure");
     const Tree other = octree(4);
-    m_host.frame(
-        [&](Recorder& recorder, VkCommandBuffer commands)
-        {
-            image.beginCopies(commands);
-            const auto traceOther = [&]
-            { tracer.traceKept(recorder, other, environment, light, test::apiCamera(), {}, image.target()); };
-            expectUsage(traceOther, "KeptLight::update() comes first");
-        });
-    m_host.lostFrame([&](Recorder& recorder, VkCommandBuffer)
-                     { light.update(recorder, tree, environment, test::apiCamera()); });
+    expectUsage([&] { traceOf(other, test::apiCamera(), {}); }, "KeptLight::update() comes first");
+    m_host.lostFrame([&](Recorder& recorder) { light.update(recorder, tree, environment, test::apiCamera()); });
     expectUsage([&] { trace(test::apiCamera(), {}); }, "KeptLight::update() comes first");
 }
 
@@ -348,7 +303,7 @@ TEST_F(ApiKeptLight, TheHostSeesItsCounts)
     Environment environment = sky();
     KeptLight light(m_host.context, kGrid);
     m_host.frame(
-        [&](Recorder& recorder, VkCommandBuffer)
+        [&](Recorder& recorder)
         {
             light.update(recorder, tree, environment, test::apiCamera());
             const std::string& dump = recorder.impl().graph.dump();
@@ -368,8 +323,7 @@ TEST_F(ApiKeptLight, BeginsAnewAfterALostFrameAndInAnotherGrid)
     const Found expected = found(fresh);
     KeptLight light(m_host.context, kGrid);
     frames(light, tree, environment, 3);
-    m_host.lostFrame([&](Recorder& recorder, VkCommandBuffer)
-                     { light.update(recorder, tree, environment, test::apiCamera()); });
+    m_host.lostFrame([&](Recorder& recorder) { light.update(recorder, tree, environment, test::apiCamera()); });
     EXPECT_EQ(found(light).frame_count, 3U) << "what shaders find is that of the last frame that was not lost";
     frames(light, tree, environment, 1);
     EXPECT_EQ(wordsOf(found(light).faces), wordsOf(expected.faces));
@@ -386,31 +340,24 @@ TEST_F(ApiKeptLight, BeginsAnewAfterALostFrameAndInAnotherGrid)
 // Brushes, other lamps and another sun change light that nothing else tells of.
 TEST_F(ApiKeptLight, SeesWhatChangesByItself)
 {
-    std::optional<DynamicTree> tree;
-    Tree fixed = octree(3);
     DynamicTreeInfo info;
-    info.emission_scale = m_host.upload(model().info()).emissionScale();
-    m_host.frame([&](Recorder& recorder, VkCommandBuffer) { tree.emplace(recorder, std::move(fixed), info); });
+    info.emission_scale = m_host.upload(test::pathModel().info()).emissionScale();
+    DynamicTree tree = m_host.make<DynamicTree>(octree(3), info);
     Environment environment = sky();
     KeptLight light(m_host.context, kGrid);
     const auto settledAfter = [&](const std::function<void()>& change)
     {
-        frames(light, *tree, environment, 40);
+        frames(light, tree, environment, 40);
         change();
-        frames(light, *tree, environment, 32); // which count few samples
+        frames(light, tree, environment, 32); // which count few samples
         return settledShare(found(light).faces);
     };
     const auto edit = [&]
     {
-        const BrushInfo brush = {.action = BrushAction::Carve, .center = {5, 5, 5}, .radius = 1};
-        for (bool is_done = false; !is_done;)
-        {
-            m_host.frame([&](Recorder& recorder, VkCommandBuffer) { is_done = tree->edit(recorder, brush); });
-        }
-        tree->endStroke();
+        m_host.edit(tree, {.action = BrushAction::Carve, .center = {5, 5, 5}, .radius = 1});
+        tree.endStroke();
     };
-    const auto undo = [&]
-    { m_host.frame([&](Recorder& recorder, VkCommandBuffer) { EXPECT_TRUE(tree->undoEdit(recorder)); }); };
+    const auto undo = [&] { m_host.frame([&](Recorder& recorder) { EXPECT_TRUE(tree.undoEdit(recorder)); }); };
     const auto turn = [&] { environment.setSun({.direction = {1, 2, 0}}); };
     EXPECT_GT(settledAfter([] {}), 0.3); // others are seen, or hit, now and then
     EXPECT_LT(settledAfter(turn), 0.1);
@@ -435,7 +382,7 @@ TEST_F(ApiKeptLight, FollowsADynamicTreeThatIsMadeAnew)
         ModelInfo info = of.info();
         info.emission_scale = scale;
         Tree fixed = m_host.build(m_host.upload(info), {.grid = test::apiGrid(3)});
-        m_host.frame([&](Recorder& recorder, VkCommandBuffer)
+        m_host.frame([&](Recorder& recorder)
                      { tree.emplace(recorder, std::move(fixed), DynamicTreeInfo{.emission_scale = scale}); });
     };
     Environment environment = sky();
@@ -451,7 +398,7 @@ TEST_F(ApiKeptLight, FollowsADynamicTreeThatIsMadeAnew)
         return sum;
     };
     KeptLight light(m_host.context, kGrid);
-    make(model());
+    make(test::pathModel());
     const double before = light_after(light, 300);
     const void* const first = tree->impl(); // whose memory another tree may get
     for (int tries = 0; tries == 0 || (tries < 32 && tree->impl() != first); ++tries)
@@ -535,7 +482,7 @@ TEST_F(ApiKeptLight, WhatIsNotValidIsRefused)
     KeptLight light(m_host.context, kGrid);
     const auto refused = [&](const CameraInfo& camera, const KeptFrameInfo& info, const std::string& word)
     {
-        m_host.frame([&](Recorder& recorder, VkCommandBuffer)
+        m_host.frame([&](Recorder& recorder)
                      { expectUsage([&] { light.update(recorder, tree, environment, camera, info); }, word); });
     };
     CameraInfo camera = test::apiCamera();
@@ -545,13 +492,11 @@ TEST_F(ApiKeptLight, WhatIsNotValidIsRefused)
     refused(camera, {}, "camera");
 
     std::optional<Environment> lost;
-    m_host.lostFrame([&](Recorder& recorder, VkCommandBuffer) { lost.emplace(recorder); });
+    m_host.lostFrame([&](Recorder& recorder) { lost.emplace(recorder); });
     expectUsage([&] { frames(light, tree, *lost, 1); }, "environment was lost");
     test::EmbeddingHost other_host;
-    std::optional<Environment> foreign;
-    other_host.frame([&](Recorder& recorder, VkCommandBuffer) { foreign.emplace(recorder); });
-    expectUsage([&] { frames(light, tree, *foreign, 1); }, "two contexts");
-    foreign.reset();
+    Environment foreign = other_host.make<Environment>();
+    expectUsage([&] { frames(light, tree, foreign, 1); }, "two contexts");
     frames(light, tree, environment, 1);
 
     KeptLight taken(std::move(light));

@@ -73,7 +73,7 @@ template <typename Job> bool dropInStep(test::EmbeddingHost& host, std::unique_p
 {
     for (int i = 0; i < step; ++i)
     {
-        host.frame([&](Recorder& recorder, VkCommandBuffer) { job->record(recorder); });
+        host.frame([&](Recorder& recorder) { job->record(recorder); });
     }
     if (job->isDone())
     {
@@ -161,7 +161,7 @@ std::vector<std::unique_ptr<Job>> jobsInEachStep(test::EmbeddingHost& host, cons
         std::unique_ptr<Job> job = make();
         for (std::size_t i = 0; i < step; ++i)
         {
-            host.frame([&](Recorder& recorder, VkCommandBuffer) { job->record(recorder); });
+            host.frame([&](Recorder& recorder) { job->record(recorder); });
         }
         if (job->isDone())
         {
@@ -227,7 +227,7 @@ void expectNoJobWithoutSource(test::EmbeddingHost& host, const Make& make, bool 
 {
     std::unique_ptr<Job> job;
     host.lostFrame(
-        [&](Recorder& recorder, VkCommandBuffer)
+        [&](Recorder& recorder)
         {
             job = make(recorder);
             if (records)
@@ -238,7 +238,7 @@ void expectNoJobWithoutSource(test::EmbeddingHost& host, const Make& make, bool 
     EXPECT_TRUE(job->isBroken());
     for (int tries = 0; tries < 2; ++tries)
     {
-        host.frame([&](Recorder& recorder, VkCommandBuffer) { expectUsage([&] { job->record(recorder); }, word); });
+        host.frame([&](Recorder& recorder) { expectUsage([&] { job->record(recorder); }, word); });
         expectUsage([&] { (void)job->isDone(); }, word);
         expectUsage([&] { (void)job->take(); }, word);
         EXPECT_TRUE(job->isBroken());
@@ -284,7 +284,7 @@ TEST(ApiLifetime, AJobResumesWhereOnlyItsStepIsLost)
     }
     host.device.submit(commands);
     TreeBuild build(host.context, *model, buildInfo());
-    host.lostFrame([&](Recorder& recorder, VkCommandBuffer) { build.record(recorder); });
+    host.lostFrame([&](Recorder& recorder) { build.record(recorder); });
     EXPECT_FALSE(build.isBroken());
     host.device.wait();
     host.context.frameDone(host.last_frame);
@@ -357,7 +357,7 @@ TEST_F(ApiFrames, AFrameThatIsBeingRecordedIsNotDone)
     const Model model = m_host.upload(description().info());
     TreeBuild build(m_host.context, model, buildInfo());
     m_host.frame(
-        [&](Recorder& recorder, VkCommandBuffer)
+        [&](Recorder& recorder)
         {
             build.record(recorder);
             for (const std::uint64_t frame : {m_host.last_frame + 1, m_host.last_frame + 2})
@@ -372,7 +372,7 @@ TEST_F(ApiFrames, AFrameThatIsBeingRecordedIsNotDone)
 TEST_F(ApiFrames, AFrameThatIsDoneIsNotBegunAgain)
 {
     m_host.last_frame = 99;
-    m_host.frame([](Recorder&, VkCommandBuffer) {});
+    m_host.frame([](Recorder&) {});
     VkCommandBuffer commands = m_host.device.begin();
     expectUsage([&] { const Recorder recorder(m_host.context, commands, 100); }, "frame 100 is done; ");
     {
@@ -395,7 +395,7 @@ TEST(ApiLifetime, WhatIsLostTellsNothing)
     std::optional<Tree> tree;
     std::optional<DynamicTree> dynamic;
     host.lostFrame(
-        [&](Recorder& recorder, VkCommandBuffer)
+        [&](Recorder& recorder)
         {
             model.emplace(recorder, description().info());
             tree.emplace(recorder, std::span<const std::byte>(treeFile()));
@@ -432,7 +432,7 @@ TEST(ApiLifetime, WhatWasMovedFromIsEmpty)
     TreeBuild other_build(std::move(build));
     std::optional<DynamicTree> dynamic;
     host.frame(
-        [&](Recorder& recorder, VkCommandBuffer)
+        [&](Recorder& recorder)
         {
             const auto trace = [&](auto& of) { tracer.trace(recorder, of, test::apiCamera(), {}, image.target()); };
             expectUsage([&] { trace(std::as_const(tree)); }, "tracer was " + empty);
@@ -453,7 +453,7 @@ TEST(ApiLifetime, WhatWasMovedFromIsEmpty)
     TreeCompression compression(host.context, std::move(octree));
     expectUsage([&] { (void)octree.info(); }, "tree was " + empty);
     const TreeCompression other_compression(std::move(compression));
-    host.frame([&](Recorder& recorder, VkCommandBuffer)
+    host.frame([&](Recorder& recorder)
                { expectUsage([&] { compression.record(recorder); }, "compression was " + empty); });
     expectUsage([&] { (void)compression.isDone(); }, "compression was " + empty);
     expectUsage([&] { (void)compression.isBroken(); }, "compression was " + empty);
@@ -469,7 +469,7 @@ TEST(ApiLifetime, WhatWasMovedFromIsEmpty)
     expectUsage([&] { dynamic->endStroke(); }, "dynamic tree was " + empty);
     expectUsage([&] { host.picture(*dynamic, test::apiCamera()); }, "dynamic tree was " + empty);
     host.frame(
-        [&](Recorder& recorder, VkCommandBuffer)
+        [&](Recorder& recorder)
         {
             expectUsage([&] { dynamic->addObject(recorder, model, kIdentity); }, "dynamic tree was " + empty);
             expectUsage([&] { dynamic->update(recorder); }, "dynamic tree was " + empty);

@@ -50,8 +50,7 @@ TEST_F(ApiPaths, BuffersAreMadeForTheFirstPathsAndAreAsLargeAsTold)
     const SpotMap map;
     expectMore(10e6, 0.5e6, [&] { environment.emplace(sky()); });
     expectMore(12.0 * 128 + 288.0 * 256, 4096, // 16 x 16 cells
-               [&]
-               { m_host.frame([&](Recorder& recorder, VkCommandBuffer) { small.emplace(recorder, map.info()); }); });
+               [&] { m_host.frame([&](Recorder& recorder) { small.emplace(recorder, map.info()); }); });
     for (const std::uint32_t edge : {16U, 1024U}) // more pixels than advance together
     {
         Tracer tracer(m_host.context, edge, edge, kFormat);
@@ -89,7 +88,7 @@ TEST_F(ApiPaths, EveryBufferMayFailAndEveryKernelToo)
     std::optional<Tracer> tracer;
     test::TargetImage image(host.device, kFormat, kWidth, kHeight);
     const auto makeEnvironment = [&]
-    { host.frame([&](Recorder& recorder, VkCommandBuffer) { environment.emplace(recorder, map.info()); }); };
+    { host.frame([&](Recorder& recorder) { environment.emplace(recorder, map.info()); }); };
     PathInfo info = kFewBounces;
     const auto trace = [&]
     {
@@ -184,10 +183,10 @@ TEST_F(ApiPaths, WhatIsNotValidIsRefusedAndNothingIsRecorded)
     const auto refused =
         [&](const CameraInfo& camera, const PathInfo& info, const ImageTarget& target, const std::string& word)
     {
-        m_host.frame([](Recorder&, VkCommandBuffer) {});
+        m_host.frame([](Recorder&) {});
         const std::size_t before = m_host.context.passTimes().size();
         m_host.frame(
-            [&](Recorder& recorder, VkCommandBuffer)
+            [&](Recorder& recorder)
             { expectUsage([&] { tracer.tracePaths(recorder, octree, environment, camera, info, target); }, word); });
         EXPECT_EQ(m_host.context.passTimes().size(), before) << "passes of an older frame: this one has none; " << word;
         EXPECT_EQ(tracer.sampleCount(), 1U);
@@ -225,10 +224,8 @@ TEST_F(ApiPaths, WhatIsNotValidIsRefusedAndNothingIsRecorded)
     EXPECT_EQ(tracer.sampleCount(), 2U); // the samples stayed
 
     test::EmbeddingHost other_host;
-    std::optional<Environment> foreign;
-    other_host.frame([&](Recorder& recorder, VkCommandBuffer) { foreign.emplace(recorder); });
-    expectUsage([&] { (void)paths(tracer, octree, *foreign); }, "two contexts");
-    foreign.reset();
+    Environment foreign = other_host.make<Environment>();
+    expectUsage([&] { (void)paths(tracer, octree, foreign); }, "two contexts");
 }
 
 TEST_F(ApiPaths, LightThatThereCannotBeIsRefused)
@@ -251,10 +248,9 @@ TEST_F(ApiPaths, LightThatThereCannotBeIsRefused)
         SpotMap map;
         EnvironmentMapInfo info = map.info();
         spoil(info, map.texels);
-        m_host.frame([](Recorder&, VkCommandBuffer) {});
+        m_host.frame([](Recorder&) {});
         const std::size_t passes = m_host.context.passTimes().size();
-        m_host.frame([&](Recorder& recorder, VkCommandBuffer)
-                     { expectUsage([&] { const Environment made(recorder, info); }, word); });
+        m_host.frame([&](Recorder& recorder) { expectUsage([&] { const Environment made(recorder, info); }, word); });
         EXPECT_EQ(m_host.context.passTimes().size(), passes) << word;
         EXPECT_EQ(used(), before) << word;
     };

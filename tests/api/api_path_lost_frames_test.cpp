@@ -66,7 +66,7 @@ TEST_F(ApiPaths, AnEnvironmentOfALostFrameIsLost)
     std::optional<Environment> lost_sky;
     std::optional<Environment> lost_map;
     m_host.lostFrame(
-        [&](Recorder& recorder, VkCommandBuffer)
+        [&](Recorder& recorder)
         {
             lost_sky.emplace(recorder);
             lost_map.emplace(recorder, map.info());

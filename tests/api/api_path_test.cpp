@@ -9,7 +9,6 @@
 #include <gtest/gtest.h>
 
 #include <cstdint>
-#include <optional>
 #include <utility>
 
 namespace zvo
@@ -75,9 +74,7 @@ TEST_F(ApiPaths, PicturesAreThoseOfTheEngineOfOctreesAndDags)
     EXPECT_EQ(newPaths(octree, environment), enginePicture(expected, engine_sky, {.bounces = 2}, 1));
     environment.setSun({});
 
-    TreeCompression compression(m_host.context, std::move(octree));
-    m_host.finish(compression);
-    const Tree dag = compression.take();
+    const Tree dag = m_host.compress(std::move(octree));
     EXPECT_EQ(newPaths(dag, environment, {.bounces = 2, .samples = 3}), picture);
 }
 
@@ -87,17 +84,12 @@ TEST_F(ApiPaths, AMapLightsAsThatOfTheEngine)
     const DeviceTree expected = test::engineOctree(device(), test::apiScene(), test::apiGrid(5));
     SpotMap map;
     DeviceEnvironment engine_map(device().device(), map.picture, SpotMap::kTurn, double{SpotMap::kStrength});
-    std::optional<Environment> environment;
-    m_host.frame(
-        [&](Recorder& recorder, VkCommandBuffer)
-        {
-            environment.emplace(recorder, map.info());
-            map.texels.clear(); // was copied
-        });
-    EXPECT_EQ(newPaths(octree, *environment), enginePicture(expected, engine_map, {.bounces = 2}, 1));
-    environment->setSun({.direction = {1, 2, 0}, .irradiance = {1, 2, 3}});
+    Environment environment = m_host.make<Environment>(map.info());
+    map.texels.clear(); // was copied
+    EXPECT_EQ(newPaths(octree, environment), enginePicture(expected, engine_map, {.bounces = 2}, 1));
+    environment.setSun({.direction = {1, 2, 0}, .irradiance = {1, 2, 3}});
     engine_map.setSun({.direction = {1, 2, 0}, .irradiance = {1, 2, 3}});
-    EXPECT_EQ(newPaths(octree, *environment), enginePicture(expected, engine_map, {.bounces = 2}, 1));
+    EXPECT_EQ(newPaths(octree, environment), enginePicture(expected, engine_map, {.bounces = 2}, 1));
 }
 
 TEST_F(ApiPaths, EveryKindOfImageGetsTheTexelsOfTheEngine)
@@ -112,14 +104,10 @@ TEST_F(ApiPaths, EveryKindOfImageGetsTheTexelsOfTheEngine)
     {
         Tracer tracer = this->tracer(format);
         test::TargetImage image(m_host.device, format, kWidth, kHeight);
-        m_host.frame(
-            [&](Recorder& recorder, VkCommandBuffer commands)
-            {
-                image.beginCopies(commands);
-                tracer.tracePaths(recorder, octree, environment, test::apiCamera(), kFewBounces, image.target());
-                image.read(commands);
-            });
-        EXPECT_EQ(image.words(), enginePicture(expected, engine_sky, {.bounces = 2}, 1, {}, texels)) << format;
+        const auto trace = [&](Recorder& recorder, const ImageTarget& target)
+        { tracer.tracePaths(recorder, octree, environment, test::apiCamera(), kFewBounces, target); };
+        EXPECT_EQ(m_host.picture(image, trace), enginePicture(expected, engine_sky, {.bounces = 2}, 1, {}, texels))
+            << format;
     }
 }
 
@@ -223,34 +211,24 @@ TEST_F(ApiPaths, ADynamicTreeBeginsAnewWhereItChangesAndLooksAsIfBuiltAtOnce)
     Environment environment = sky();
     Tracer tracer = this->tracer();
     const Words still = paths(tracer, fixed, environment);
-    std::optional<DynamicTree> tree;
-    DynamicObjectId object = 0;
-    m_host.frame(
-        [&](Recorder& recorder, VkCommandBuffer)
-        {
-            tree.emplace(recorder, std::move(fixed),
-                         DynamicTreeInfo{.merge = MergeRule::Average, .emission_scale = fixed_model.emissionScale()});
-        });
-    EXPECT_EQ(paths(tracer, *tree, environment), still);
-    m_host.frame([&](Recorder& recorder, VkCommandBuffer)
-                 { object = tree->addObject(recorder, ball_model, test::movedBy(8.25F, 5, 5)); });
-    do
-    {
-        m_host.frame([&](Recorder& recorder, VkCommandBuffer) { tree->update(recorder); });
-    } while (tree->needsUpdate());
+    DynamicTree tree = m_host.make<DynamicTree>(
+        std::move(fixed), DynamicTreeInfo{.merge = MergeRule::Average, .emission_scale = fixed_model.emissionScale()});
+    EXPECT_EQ(paths(tracer, tree, environment), still);
+    m_host.add(tree, ball_model, test::movedBy(8.25F, 5, 5));
+    m_host.update(tree);
 
     Scene both = test::apiScene();
     both.append(test::sphereScene(glm::vec3(8.25F, 5, 5), 2.0F, 9));
     const test::HostModel both_model(both);
     const Tree rebuilt = m_host.build(m_host.upload(both_model.info()), {.grid = test::apiGrid(5)});
-    const Words moved = paths(tracer, *tree, environment);
+    const Words moved = paths(tracer, tree, environment);
     EXPECT_EQ(tracer.sampleCount(), 1U);
     EXPECT_NE(moved, still);
     EXPECT_EQ(moved, newPaths(rebuilt, environment));
-    (void)paths(tracer, *tree, environment);
+    (void)paths(tracer, tree, environment);
     EXPECT_EQ(tracer.sampleCount(), 2U);
-    m_host.frame([&](Recorder& recorder, VkCommandBuffer) { EXPECT_TRUE(tree->undo(recorder)); });
-    EXPECT_EQ(paths(tracer, *tree, environment), still);
+    m_host.frame([&](Recorder& recorder) { EXPECT_TRUE(tree.undo(recorder)); });
+    EXPECT_EQ(paths(tracer, tree, environment), still);
     EXPECT_EQ(tracer.sampleCount(), 1U);
 }
 

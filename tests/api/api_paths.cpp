@@ -5,9 +5,6 @@
 #include "support/engine_device.h"
 #include "support/failing_vulkan.h"
 
-#include <optional>
-#include <utility>
-
 namespace zvo::test
 {
 
@@ -55,20 +52,6 @@ ApiPaths::~ApiPaths()
 Tree ApiPaths::octree(std::uint32_t depth)
 {
     return m_host.build(m_host.upload(pathModel().info()), {.grid = apiGrid(depth)});
-}
-
-Environment ApiPaths::sky()
-{
-    std::optional<Environment> result;
-    m_host.frame([&](Recorder& recorder, VkCommandBuffer) { result.emplace(recorder); });
-    return std::move(*result);
-}
-
-Environment ApiPaths::spotMap()
-{
-    std::optional<Environment> result;
-    m_host.frame([&](Recorder& recorder, VkCommandBuffer) { result.emplace(recorder, SpotMap().info()); });
-    return std::move(*result);
 }
 
 } // namespace zvo::test

@@ -56,8 +56,8 @@ protected:
     ~ApiPaths() override;
 
     Tree octree(std::uint32_t depth = 5);
-    Environment sky();
-    Environment spotMap();
+    Environment sky() { return m_host.make<Environment>(); }
+    Environment spotMap() { return m_host.make<Environment>(SpotMap().info()); }
     Tracer tracer(VkFormat format = kFormat) { return {m_host.context, kWidth, kHeight, format}; }
 
     [[nodiscard]] std::uint64_t used() { return m_host.context.memory().used; }
@@ -68,14 +68,8 @@ protected:
                 const CameraInfo& camera = apiCamera())
     {
         TargetImage image(m_host.device, kFormat, kWidth, kHeight);
-        m_host.frame(
-            [&](Recorder& recorder, VkCommandBuffer commands)
-            {
-                image.beginCopies(commands);
-                tracer.tracePaths(recorder, tree, environment, camera, info, image.target());
-                image.read(commands);
-            });
-        return image.words();
+        return m_host.picture(image, [&](Recorder& recorder, const ImageTarget& target)
+                              { tracer.tracePaths(recorder, tree, environment, camera, info, target); });
     }
 
     /// The first picture of a new tracer.

@@ -82,23 +82,11 @@ TEST(ApiPicture, ATreeFromAFileIsTheTree)
     std::vector<std::byte> bytes;
     writeZvo(downloadTree(device(), octree),
              [&](std::span<const std::byte> more) { bytes.insert(bytes.end(), more.begin(), more.end()); });
-    std::optional<Tree> tree;
-    host.frame([&](Recorder& recorder, VkCommandBuffer) { tree.emplace(recorder, std::span<const std::byte>(bytes)); });
-    EXPECT_EQ(host.picture(*tree, test::apiCamera()), test::pictureOf(device(), octree, View::Color));
+    const Tree tree = host.make<Tree>(std::span<const std::byte>(bytes));
+    EXPECT_EQ(host.picture(tree, test::apiCamera()), test::pictureOf(device(), octree, View::Color));
     bytes[200] ^= std::byte{1};
-    host.frame(
-        [&](Recorder& recorder, VkCommandBuffer)
-        {
-            try
-            {
-                const Tree broken(recorder, std::span<const std::byte>(bytes));
-                ADD_FAILURE() << "no error";
-            }
-            catch (const Error& error)
-            {
-                EXPECT_EQ(error.code(), ErrorCode::Input) << error.what();
-            }
-        });
+    const auto readBroken = [&] { (void)host.make<Tree>(std::span<const std::byte>(bytes)); };
+    (void)test::messageOf(readBroken, ErrorCode::Input);
 }
 
 TEST(ApiPicture, AnEmptyModelGivesAnEmptyTreeAndABackground)
@@ -109,9 +97,7 @@ TEST(ApiPicture, AnEmptyModelGivesAnEmptyTreeAndABackground)
     EXPECT_EQ(tree.info().voxel_count, 0U);
     const auto background = host.picture(tree, test::apiCamera(), {.view = View::Albedo});
     EXPECT_EQ(std::set<std::uint32_t>(background.begin(), background.end()).size(), 1U);
-    TreeCompression compression(host.context, std::move(tree));
-    host.finish(compression);
-    const Tree dag = compression.take();
+    const Tree dag = host.compress(std::move(tree));
     EXPECT_EQ(host.picture(dag, test::apiCamera(), {.view = View::Albedo}), background);
 }
 
@@ -169,8 +155,8 @@ TEST(ApiPicture, TwoContextsDoNotKnowOfEachOther)
     TreeBuild build_two(two->context, of_two, {.grid = test::apiGrid()});
     while (!build_one.isDone() || !build_two.isDone()) // in turns
     {
-        one.frame([&](Recorder& recorder, VkCommandBuffer) { build_one.record(recorder); });
-        two->frame([&](Recorder& recorder, VkCommandBuffer) { build_two.record(recorder); });
+        one.frame([&](Recorder& recorder) { build_one.record(recorder); });
+        two->frame([&](Recorder& recorder) { build_two.record(recorder); });
     }
     const Tree tree_one = build_one.take();
     std::vector<std::uint32_t> picture;

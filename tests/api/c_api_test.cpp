@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The C interface: pictures of a program in C, failures, and structs that grow.
 #include "api/c_guard.h"
+#include "api/c_members.h"
 #include "api_scene.h"
 #include "c_host.h"
 #include "c_program.h"
@@ -26,35 +27,15 @@ using test::device;
 
 // Two samples of each pixel, one in each of two frames.
 template <typename AnyTree>
-std::vector<std::uint32_t> pathsInCpp(test::EmbeddingHost& host, AnyTree& tree, const EnvironmentMapInfo* map)
+std::vector<std::uint32_t> pathsInCpp(test::EmbeddingHost& host, AnyTree& tree, Environment&& environment)
 {
-    std::optional<Environment> environment;
-    host.frame(
-        [&](Recorder& recorder, VkCommandBuffer)
-        {
-            if (map != nullptr)
-            {
-                environment.emplace(recorder, *map);
-            }
-            else
-            {
-                environment.emplace(recorder);
-            }
-        });
-    environment->setSun({.direction = {1, 0.75, 0.45}});
+    environment.setSun({.direction = {1, 0.75, 0.45}});
     Tracer tracer(host.context, host.kWidth, host.kHeight, VK_FORMAT_R8G8B8A8_UNORM);
     test::TargetImage image(host.device, VK_FORMAT_R8G8B8A8_UNORM, host.kWidth, host.kHeight);
-    for (int i = 0; i < 2; ++i)
-    {
-        host.frame(
-            [&](Recorder& recorder, VkCommandBuffer commands)
-            {
-                image.beginCopies(commands);
-                tracer.tracePaths(recorder, tree, *environment, test::apiCamera(), {.bounces = 1}, image.target());
-                image.read(commands);
-            });
-    }
-    return image.words();
+    const auto trace = [&](Recorder& recorder, const ImageTarget& target)
+    { tracer.tracePaths(recorder, tree, environment, test::apiCamera(), {.bounces = 1}, target); };
+    host.picture(image, trace);
+    return host.picture(image, trace);
 }
 
 // The pictures of c_program.c, made by the C++ interface.
@@ -73,42 +54,20 @@ std::vector<std::vector<std::uint32_t>> picturesInCpp()
     const Model model = host.upload(info);
     Tree octree = host.build(model, {.grid = test::apiGrid(5)});
     std::vector<std::vector<std::uint32_t>> pictures = {host.picture(octree, camera)};
-    TreeCompression compression(host.context, std::move(octree));
-    host.finish(compression);
-    Tree dag = compression.take();
+    Tree dag = host.compress(std::move(octree));
     pictures.push_back(host.picture(dag, camera));
     std::vector<Vec3> texels(8, {2, 1, 0});
     std::fill_n(texels.begin(), 4, Vec3{1, 2, 3});
     const EnvironmentMapInfo map = {4, 2, texels, 0, 0.5F};
-    pictures.push_back(pathsInCpp(host, dag, &map));
-    std::optional<DynamicTree> tree;
-    host.frame(
-        [&](Recorder& recorder, VkCommandBuffer)
-        {
-            tree.emplace(recorder, std::move(dag), DynamicTreeInfo{.history_entries = 2});
-            tree->addObject(recorder, model, test::movedBy(3, 4, 2));
-        });
-    const auto update = [&]
-    {
-        do
-        {
-            host.frame([&](Recorder& recorder, VkCommandBuffer) { tree->update(recorder); });
-        } while (tree->needsUpdate());
-    };
-    update();
-    pictures.push_back(host.picture(*tree, camera));
-    bool is_done = false;
-    while (!is_done)
-    {
-        host.frame(
-            [&](Recorder& recorder, VkCommandBuffer) {
-                is_done = tree->edit(recorder,
-                                     {.action = BrushAction::Fill, .center = {24, 8, 24}, .radius = 4, .color = 255});
-            });
-    }
-    update();
-    pictures.push_back(host.picture(*tree, camera));
-    pictures.push_back(pathsInCpp(host, *tree, nullptr));
+    pictures.push_back(pathsInCpp(host, dag, host.make<Environment>(map)));
+    auto tree = host.make<DynamicTree>(std::move(dag), DynamicTreeInfo{.history_entries = 2});
+    host.frame([&](Recorder& recorder) { tree.addObject(recorder, model, test::movedBy(3, 4, 2)); });
+    host.update(tree);
+    pictures.push_back(host.picture(tree, camera));
+    host.edit(tree, {.action = BrushAction::Fill, .center = {24, 8, 24}, .radius = 4, .color = 255});
+    host.update(tree);
+    pictures.push_back(host.picture(tree, camera));
+    pictures.push_back(pathsInCpp(host, tree, host.make<Environment>()));
     return pictures;
 }
 
@@ -134,60 +93,32 @@ TEST(CApi, AProgramInCShowsWhatOneInCppShows)
 TEST(CApi, AHostsMemoryAndLogAreFunctionsInC)
 {
     test::HostMemory memory;
-    struct Callbacks
-    {
-        MemoryCallbacks memory;
-        std::vector<std::string> messages;
-        std::uint64_t ranges = 0;
-        std::uint64_t releases = 0;
-    } callbacks{memory.callbacks(), {}};
-    {
-        test::HostOptions options;
-        options.memory = callbacks.memory; // the device enables what this needs
-        test::CEmbeddingHost host(
-            options,
-            [&](ZvoContextInfo& info)
+    std::vector<std::string> messages;
+    test::HostOptions options;
+    options.memory = memory.callbacks();
+    test::CEmbeddingHost host(
+        options,
+        [&](ZvoContextInfo& info)
+        {
+            info.log.user = &messages;
+            info.log.function = [](void* user, ZvoLogSeverity severity, const char* message)
             {
-                info.memory.user = &callbacks;
-                info.memory.allocate = [](void* user, const ZvoMemoryRequest* request, ZvoMemoryRange* range)
-                {
-                    auto& state = *static_cast<Callbacks*>(user);
-                    const MemoryRequest given = {request->name,      request->requirements, request->required,
-                                                 request->preferred, request->map,          request->device_address};
-                    MemoryRange got{};
-                    const VkResult result = state.memory.allocate(state.memory.user, &given, &got);
-                    *range = {got.memory, got.offset, got.mapped, got.cookie};
-                    state.ranges += result == VK_SUCCESS ? 1 : 0;
-                    return result;
-                };
-                info.memory.release = [](void* user, const ZvoMemoryRange* range)
-                {
-                    auto& state = *static_cast<Callbacks*>(user);
-                    ++state.releases;
-                    const MemoryRange given = {range->memory, range->offset, range->mapped, range->cookie};
-                    state.memory.release(state.memory.user, &given);
-                };
-                info.log.user = &callbacks;
-                info.log.function = [](void* user, ZvoLogSeverity severity, const char* message)
-                {
-                    EXPECT_LE(severity, std::uint32_t{ZVO_LOG_WARNING});
-                    static_cast<Callbacks*>(user)->messages.emplace_back(message);
-                };
-            },
-            [&](const test::HostDevice& device) { memory.attach(device); });
-        EXPECT_EQ(host.runProgram(), C_PROGRAM_PICTURES);
-        EXPECT_GT(callbacks.ranges, 0U);
-        EXPECT_FALSE(callbacks.messages.empty());
+                EXPECT_LE(severity, std::uint32_t{ZVO_LOG_WARNING});
+                static_cast<std::vector<std::string>*>(user)->emplace_back(message);
+            };
+        },
+        [&](const test::HostDevice& device) { memory.attach(device); });
+    EXPECT_EQ(host.runProgram(), C_PROGRAM_PICTURES);
+    EXPECT_GT(memory.requestCount(), 0U);
+    EXPECT_FALSE(messages.empty());
 
-        // Without any memory, an operation fails with a message.
-        memory.failRequests(0);
-        ZvoTracer* tracer = nullptr;
-        EXPECT_EQ(zvoTracerCreate(host.context, 4096, 4096, VK_FORMAT_R8G8B8A8_UNORM, &tracer), ZVO_ERROR_MEMORY);
-        EXPECT_EQ(std::string(zvoLastError()).find("zvoTracerCreate: "), 0U) << zvoLastError();
-        EXPECT_EQ(tracer, nullptr);
-        memory.failRequests(UINT64_MAX);
-    }
-    EXPECT_EQ(callbacks.releases, callbacks.ranges);
+    // Without any memory, an operation fails with a message.
+    memory.failRequests(0);
+    ZvoTracer* tracer = nullptr;
+    EXPECT_EQ(zvoTracerCreate(host.context, 4096, 4096, VK_FORMAT_R8G8B8A8_UNORM, &tracer), ZVO_ERROR_MEMORY);
+    EXPECT_EQ(std::string(zvoLastError()).find("zvoTracerCreate: "), 0U) << zvoLastError();
+    EXPECT_EQ(tracer, nullptr);
+    memory.failRequests(UINT64_MAX);
 }
 
 TEST(CApi, EveryExceptionBecomesAResult)
@@ -254,25 +185,30 @@ TEST(CApi, WhatIsTakenOverIsGoneOnlyOnSuccess)
     ZvoModel* const model = host.uploadBox();
     ZvoTreeBuildInfo info = ZVO_TREE_BUILD_INFO_INIT;
     info.grid = {{-2, -2, -2}, 1, 4};
+    info.coverage = 2;
+    ZvoTreeJob* build = nullptr;
+    EXPECT_EQ(zvoTreeBuildCreate(host.context, model, &info, &build), ZVO_ERROR_USAGE);
+    EXPECT_NE(std::string(zvoLastError()).find("TreeBuildInfo::coverage has no value 2"), std::string::npos);
+    info.coverage = ZVO_COVERAGE_THIN;
     info.format = ZVO_ATTRIBUTE_FORMAT_BYTES4;
     ZvoTree* tree = host.build(model, info);
     ZvoTreeInfo description = ZVO_TREE_INFO_INIT;
-    ZvoTreeCompression* compression = nullptr;
+    ZvoTreeJob* compression = nullptr;
     EXPECT_EQ(zvoTreeCompressionCreate(host.context, tree, nullptr), ZVO_ERROR_USAGE);
     EXPECT_EQ(zvoTreeInfo(tree, &description), ZVO_OK); // the tree is as before
     EXPECT_EQ(zvoTreeCompressionCreate(host.context, tree, &compression), ZVO_OK);
-    EXPECT_EQ(zvoTreeCompressionTake(compression, &tree), ZVO_ERROR_USAGE);
+    EXPECT_EQ(zvoTreeJobTake(compression, &tree), ZVO_ERROR_USAGE);
     VkBool32 has_more = VK_TRUE;
     while (has_more)
     {
         host.frame([&](ZvoRecorder* recorder)
-                   { EXPECT_EQ(zvoTreeCompressionRecord(compression, recorder, &has_more), ZVO_OK); });
+                   { EXPECT_EQ(zvoTreeJobRecord(compression, recorder, &has_more), ZVO_OK); });
     }
     VkBool32 is_broken = VK_TRUE;
-    EXPECT_EQ(zvoTreeCompressionIsBroken(compression, &is_broken), ZVO_OK);
+    EXPECT_EQ(zvoTreeJobIsBroken(compression, &is_broken), ZVO_OK);
     EXPECT_EQ(is_broken, VkBool32{VK_FALSE});
-    ASSERT_EQ(zvoTreeCompressionTake(compression, &tree), ZVO_OK);
-    zvoTreeCompressionDestroy(compression);
+    ASSERT_EQ(zvoTreeJobTake(compression, &tree), ZVO_OK);
+    zvoTreeJobDestroy(compression);
     EXPECT_EQ(zvoTreeCompressionCreate(host.context, tree, &compression), ZVO_ERROR_USAGE); // the tree is a DAG already
     EXPECT_EQ(zvoTreeInfo(tree, &description), ZVO_OK);
     EXPECT_EQ(description.structure, std::uint32_t{ZVO_TREE_STRUCTURE_SVDAG});
@@ -306,18 +242,8 @@ TEST(CApi, ReportsAndPassTimesAreToldLineByLine)
     {
         ZvoDeviceInfo description = ZVO_DEVICE_INFO_INIT;
         ASSERT_EQ(zvoDeviceReportInfo(report, &description), ZVO_OK);
-        EXPECT_EQ(description.physical_device, expected.physical_device);
-        EXPECT_EQ(description.name, expected.name);
-        EXPECT_EQ(description.driver, expected.driver);
-        EXPECT_EQ(description.type, expected.type);
-        EXPECT_EQ(description.api_version, expected.api_version);
-        EXPECT_EQ(description.memory_bytes, expected.memory_bytes);
-        EXPECT_EQ(description.max_buffer_bytes, expected.max_buffer_bytes);
-        EXPECT_EQ(description.subgroup_size, expected.subgroup_size);
-        EXPECT_EQ(description.min_subgroup_size, expected.min_subgroup_size);
-        EXPECT_EQ(description.max_subgroup_size, expected.max_subgroup_size);
-        EXPECT_EQ(description.timestamp_period_ns, expected.timestamp_period_ns);
-        EXPECT_EQ(description.timestamp_valid_bits, expected.timestamp_valid_bits);
+        eachShared<ZvoDeviceInfo>(description, expected,
+                                  [](const auto& told, const auto& known) { EXPECT_EQ(told, known); });
         EXPECT_EQ(description.usable, VkBool32{VK_TRUE});
         for (const auto& [list, lines] :
              {std::pair(ZVO_REPORT_PRESENT, expected.present), std::pair(ZVO_REPORT_MISSING, expected.missing),

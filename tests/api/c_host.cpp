@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "c_host.h"
 
+#include "api/c_convert.h"
+
 #include <gtest/gtest.h>
 
 namespace zvo::test
@@ -8,21 +10,11 @@ namespace zvo::test
 
 ZvoContextInfo cDeclaration(const ContextInfo& info)
 {
-    ZvoContextInfo result = ZVO_CONTEXT_INFO_INIT;
-    result.get_instance_proc_addr = info.get_instance_proc_addr;
-    result.instance = info.instance;
-    result.physical_device = info.physical_device;
-    result.device = info.device;
-    result.queue_family = info.queue_family;
-    result.instance_api_version = info.instance_api_version;
+    ZvoContextInfo result = toC<ZvoContextInfo>(info);
     result.instance_extensions = info.instance_extensions.data();
     result.instance_extension_count = static_cast<std::uint32_t>(info.instance_extensions.size());
     result.device_extensions = info.device_extensions.data();
     result.device_extension_count = static_cast<std::uint32_t>(info.device_extensions.size());
-    result.enabled_features = info.enabled_features;
-    result.enabled_core_features = info.enabled_core_features;
-    result.allocation_callbacks = info.allocation_callbacks;
-    result.pipeline_cache = info.pipeline_cache;
     return result;
 }
 
@@ -104,18 +96,18 @@ ZvoModel* CEmbeddingHost::uploadBox()
 
 ZvoTree* CEmbeddingHost::build(const ZvoModel* model, const ZvoTreeBuildInfo& description)
 {
-    ZvoTreeBuild* build = nullptr;
+    ZvoTreeJob* build = nullptr;
     EXPECT_EQ(zvoTreeBuildCreate(context, model, &description, &build), ZVO_OK) << zvoLastError();
     VkBool32 has_more = build != nullptr ? VK_TRUE : VK_FALSE;
     while (has_more)
     {
         has_more = VK_FALSE;
         frame([&](ZvoRecorder* recorder)
-              { EXPECT_EQ(zvoTreeBuildRecord(build, recorder, &has_more), ZVO_OK) << zvoLastError(); });
+              { EXPECT_EQ(zvoTreeJobRecord(build, recorder, &has_more), ZVO_OK) << zvoLastError(); });
     }
     ZvoTree* tree = nullptr;
-    EXPECT_EQ(zvoTreeBuildTake(build, &tree), ZVO_OK) << zvoLastError();
-    zvoTreeBuildDestroy(build);
+    EXPECT_EQ(zvoTreeJobTake(build, &tree), ZVO_OK) << zvoLastError();
+    zvoTreeJobDestroy(build);
     return tree;
 }
 
@@ -145,12 +137,7 @@ std::vector<std::uint32_t> CEmbeddingHost::picture(const ZvoTree* tree, const Zv
 
 ZvoImageTarget CEmbeddingHost::target() const
 {
-    const ImageTarget own = image.target();
-    ZvoImageTarget result = ZVO_IMAGE_TARGET_INIT;
-    result.image = own.image;
-    result.format = own.format;
-    result.layout = own.layout;
-    return result;
+    return toC<ZvoImageTarget>(image.target());
 }
 
 } // namespace zvo::test

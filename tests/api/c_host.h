@@ -13,7 +13,7 @@
 namespace zvo::test
 {
 
-/// A declaration in C, without memory and log; refers to what info refers to.
+/// A declaration in C, without log and tuning; refers to what info refers to.
 ZvoContextInfo cDeclaration(const ContextInfo& info);
 
 /// A host with one frame under way at a time, as EmbeddingHost. Fails a test where zvo does.

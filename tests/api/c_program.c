@@ -17,8 +17,7 @@ typedef struct Program
     ZvoRecorder* recorder;
     ZvoModel* model;
     ZvoTree* tree;
-    ZvoTreeBuild* build;
-    ZvoTreeCompression* compression;
+    ZvoTreeJob* job;
     ZvoDynamicTree* dynamic;
     ZvoEnvironment* environment;
     ZvoTracer* tracer;
@@ -67,51 +66,42 @@ static int upload(Program* program)
            endFrame(program) && isOk(zvoModelStats(program->model, &stats)) && stats.triangle_count == 12;
 }
 
+// Runs the job, and takes its tree.
+static int finishJob(Program* program)
+{
+    VkBool32 is_done = VK_FALSE;
+    while (!is_done)
+    {
+        VkBool32 has_more = VK_FALSE;
+        if (!beginFrame(program) || !isOk(zvoTreeJobRecord(program->job, program->recorder, &has_more)) ||
+            !endFrame(program) || !isOk(zvoTreeJobIsDone(program->job, &is_done)))
+        {
+            return 0;
+        }
+    }
+    const int is_ok = isOk(zvoTreeJobTake(program->job, &program->tree));
+    zvoTreeJobDestroy(program->job);
+    program->job = NULL;
+    return is_ok;
+}
+
 static int build(Program* program)
 {
     ZvoTreeBuildInfo info = ZVO_TREE_BUILD_INFO_INIT;
     info.grid.origin[0] = info.grid.origin[1] = info.grid.origin[2] = -2;
     info.grid.voxel_size = 0.5F;
     info.grid.depth = 5;
-    VkBool32 is_done = VK_FALSE;
-    if (!isOk(zvoTreeBuildCreate(program->host->context, program->model, &info, &program->build)))
-    {
-        return 0;
-    }
-    while (!is_done)
-    {
-        VkBool32 has_more = VK_FALSE;
-        if (!beginFrame(program) || !isOk(zvoTreeBuildRecord(program->build, program->recorder, &has_more)) ||
-            !endFrame(program) || !isOk(zvoTreeBuildIsDone(program->build, &is_done)))
-        {
-            return 0;
-        }
-    }
-    const int is_ok = isOk(zvoTreeBuildTake(program->build, &program->tree));
-    zvoTreeBuildDestroy(program->build);
-    program->build = NULL;
-    return is_ok;
+    return isOk(zvoTreeBuildCreate(program->host->context, program->model, &info, &program->job)) && finishJob(program);
 }
 
 static int compress(Program* program)
 {
-    VkBool32 is_done = VK_FALSE;
-    if (!isOk(zvoTreeCompressionCreate(program->host->context, program->tree, &program->compression)))
+    if (!isOk(zvoTreeCompressionCreate(program->host->context, program->tree, &program->job)))
     {
         return 0;
     }
     program->tree = NULL; // it was taken over
-    while (!is_done)
-    {
-        VkBool32 has_more = VK_FALSE;
-        if (!beginFrame(program) ||
-            !isOk(zvoTreeCompressionRecord(program->compression, program->recorder, &has_more)) || !endFrame(program) ||
-            !isOk(zvoTreeCompressionIsDone(program->compression, &is_done)))
-        {
-            return 0;
-        }
-    }
-    return isOk(zvoTreeCompressionTake(program->compression, &program->tree));
+    return finishJob(program);
 }
 
 static int addObject(Program* program)
@@ -124,7 +114,7 @@ static int addObject(Program* program)
     {
         return 0;
     }
-    program->tree = NULL; // likewise
+    program->tree = NULL; // it was taken over
     return isOk(zvoDynamicTreeAddObject(program->dynamic, program->recorder, program->model, place, &object)) &&
            endFrame(program);
 }
@@ -167,31 +157,47 @@ static int edit(Program* program)
     return isOk(zvoDynamicTreeEndStroke(program->dynamic));
 }
 
-static int show(Program* program)
+static int lookAtBox(ZvoCameraInfo* camera)
 {
-    const CHost* host = program->host;
     const double eye[3] = {22, 17, 25};
     const double target[3] = {5, 5, 5};
-    ZvoCameraInfo camera = ZVO_CAMERA_INFO_INIT;
-    ZvoTraceInfo info = ZVO_TRACE_INFO_INIT;
-    if (!isOk(zvoCameraLookAt(eye, target, 0.6, &camera)) || !beginFrame(program))
-    {
-        return 0;
-    }
-    host->beginCopies(host->user, program->commands);
-    const ZvoResult result =
-        program->dynamic != NULL
-            ? zvoTracerTraceDynamic(program->tracer, program->recorder, program->dynamic, &camera, &info, &host->image,
-                                    NULL)
-            : zvoTracerTrace(program->tracer, program->recorder, program->tree, &camera, &info, &host->image, NULL);
-    host->endCopies(host->user, program->commands);
-    if (!isOk(result) || !endFrame(program))
-    {
-        return 0;
-    }
-    host->keep(host->user);
+    return isOk(zvoCameraLookAt(eye, target, 0.6, camera));
+}
+
+static int beginPicture(Program* program)
+{
+    const int is_ok = beginFrame(program);
+    program->host->beginCopies(program->host->user, program->commands);
+    return is_ok;
+}
+
+static int endPicture(Program* program, ZvoResult result)
+{
+    program->host->endCopies(program->host->user, program->commands);
+    return isOk(result) && endFrame(program);
+}
+
+static int keepPicture(Program* program)
+{
+    program->host->keep(program->host->user);
     ++program->picture_count;
     return 1;
+}
+
+static int show(Program* program)
+{
+    const ZvoImageTarget* image = &program->host->image;
+    ZvoCameraInfo camera = ZVO_CAMERA_INFO_INIT;
+    ZvoTraceInfo info = ZVO_TRACE_INFO_INIT;
+    if (!lookAtBox(&camera) || !beginPicture(program))
+    {
+        return 0;
+    }
+    const ZvoResult result =
+        program->dynamic != NULL
+            ? zvoTracerTraceDynamic(program->tracer, program->recorder, program->dynamic, &camera, &info, image, NULL)
+            : zvoTracerTrace(program->tracer, program->recorder, program->tree, &camera, &info, image, NULL);
+    return endPicture(program, result) && keepPicture(program);
 }
 
 // A map of two colours above a tree that stands, the simple sky above one that moves.
@@ -215,39 +221,33 @@ static int makeEnvironment(Program* program)
 
 static int showPaths(Program* program)
 {
-    const CHost* host = program->host;
-    const double eye[3] = {22, 17, 25};
-    const double target[3] = {5, 5, 5};
+    const ZvoImageTarget* image = &program->host->image;
     ZvoCameraInfo camera = ZVO_CAMERA_INFO_INIT;
     ZvoPathInfo info = ZVO_PATH_INFO_INIT;
     info.bounces = 1;
     uint32_t count = 1;
-    if (!isOk(zvoCameraLookAt(eye, target, 0.6, &camera)) || !makeEnvironment(program) ||
-        !isOk(zvoTracerForgetSamples(program->tracer)) || !isOk(zvoTracerSampleCount(program->tracer, &count)))
+    if (!lookAtBox(&camera) || !makeEnvironment(program) || !isOk(zvoTracerForgetSamples(program->tracer)) ||
+        !isOk(zvoTracerSampleCount(program->tracer, &count)))
     {
         return 0;
     }
     while (count < 2)
     {
-        if (!beginFrame(program))
+        if (!beginPicture(program))
         {
             return 0;
         }
-        host->beginCopies(host->user, program->commands);
         const ZvoResult result = program->dynamic != NULL
                                      ? zvoTracerTracePathsDynamic(program->tracer, program->recorder, program->dynamic,
-                                                                  program->environment, &camera, &info, &host->image)
+                                                                  program->environment, &camera, &info, image)
                                      : zvoTracerTracePaths(program->tracer, program->recorder, program->tree,
-                                                           program->environment, &camera, &info, &host->image);
-        host->endCopies(host->user, program->commands);
-        if (!isOk(result) || !endFrame(program) || !isOk(zvoTracerSampleCount(program->tracer, &count)))
+                                                           program->environment, &camera, &info, image);
+        if (!endPicture(program, result) || !isOk(zvoTracerSampleCount(program->tracer, &count)))
         {
             return 0;
         }
     }
-    host->keep(host->user);
-    ++program->picture_count;
-    return 1;
+    return keepPicture(program);
 }
 
 uint32_t runCProgram(const CHost* host)
@@ -265,8 +265,7 @@ uint32_t runCProgram(const CHost* host)
     zvoTracerDestroy(program.tracer);
     zvoEnvironmentDestroy(program.environment);
     zvoDynamicTreeDestroy(program.dynamic);
-    zvoTreeCompressionDestroy(program.compression);
-    zvoTreeBuildDestroy(program.build);
+    zvoTreeJobDestroy(program.job);
     zvoTreeDestroy(program.tree);
     zvoModelDestroy(program.model);
     return program.picture_count;

@@ -20,7 +20,7 @@ namespace
 
 using test::expectUsage;
 
-template <typename Struct> class CStruct : public testing::Test
+template <typename Struct> class CStructSize : public testing::Test
 {
 protected:
     using Bytes = std::vector<unsigned char>;
@@ -63,11 +63,11 @@ using Structs =
                    ZvoTreeBuildInfo, ZvoDroppedTriangles, ZvoDynamicTreeInfo, ZvoBrushInfo, ZvoUpdateStats, ZvoSunInfo,
                    ZvoEnvironmentMapInfo, ZvoCameraInfo, ZvoTraceInfo, ZvoPathInfo, ZvoImageTarget, ZvoDepthTarget,
                    ZvoKeptLightInfo, ZvoKeptFrameInfo, ZvoKeptLightStats, ZvoKeptPictureInfo>;
-TYPED_TEST_SUITE(CStruct, Structs);
+TYPED_TEST_SUITE(CStructSize, Structs);
 
-TYPED_TEST(CStruct, MembersThatAnOlderHostDoesNotKnowAreTheDefaults)
+TYPED_TEST(CStructSize, MembersThatAnOlderHostDoesNotKnowAreTheDefaults)
 {
-    const auto defaults = this->bytesOf(initial<TypeParam>());
+    const auto defaults = this->bytesOf(CStruct<TypeParam>::initial());
     for (std::size_t size = this->kSizeBytes; size <= this->kSize; size += kMemberBytes)
     {
         auto bytes = this->given(size, 0x5A); // exactly that many, so that sanitizers see reads behind them
@@ -79,7 +79,7 @@ TYPED_TEST(CStruct, MembersThatAnOlderHostDoesNotKnowAreTheDefaults)
     }
 }
 
-TYPED_TEST(CStruct, MembersOfANewerHostMustBeZero)
+TYPED_TEST(CStructSize, MembersOfANewerHostMustBeZero)
 {
     auto bytes = this->given(this->kSize + 12, 0);
     EXPECT_NO_THROW(readStruct(this->in(bytes), "it"));
@@ -91,18 +91,18 @@ TYPED_TEST(CStruct, MembersOfANewerHostMustBeZero)
     }
 }
 
-TYPED_TEST(CStruct, WhatIsReservedMustBeZero)
+TYPED_TEST(CStructSize, WhatIsReservedMustBeZero)
 {
     if constexpr (requires(TypeParam value) { value.reserved; })
     {
-        auto value = initial<TypeParam>();
+        auto value = CStruct<TypeParam>::initial();
         EXPECT_NO_THROW(readStruct(&value, "it"));
         value.reserved = 1;
         expectUsage([&] { readStruct(&value, "it"); }, "it has a reserved member");
     }
 }
 
-TYPED_TEST(CStruct, NoSizeIsAnError)
+TYPED_TEST(CStructSize, NoSizeIsAnError)
 {
     std::vector<std::size_t> sizes = {this->kSize + 1, this->kSize - 2, 4100, std::size_t{1} << 40, SIZE_MAX};
     for (std::size_t size = 0; size < this->kSizeBytes; ++size)
@@ -114,13 +114,13 @@ TYPED_TEST(CStruct, NoSizeIsAnError)
         auto bytes = this->given(this->kSize, 0); // whatever its size says, nothing behind it is read
         std::memcpy(bytes.data(), &size, this->kSizeBytes);
         expectUsage([&] { readStruct(this->in(bytes), "it"); }, "struct_size");
-        expectUsage([&] { writeStruct(this->in(bytes), "it", initial<TypeParam>()); }, "struct_size");
+        expectUsage([&] { writeStruct(this->in(bytes), "it", CStruct<TypeParam>::initial()); }, "struct_size");
     }
     expectUsage([] { readStruct<TypeParam>(nullptr, "it"); }, "it is null");
-    expectUsage([] { writeStruct<TypeParam>(nullptr, "it", initial<TypeParam>()); }, "it is null");
+    expectUsage([] { writeStruct<TypeParam>(nullptr, "it", CStruct<TypeParam>::initial()); }, "it is null");
 }
 
-TYPED_TEST(CStruct, AsMuchIsFilledAsTheHostKnowsAndTheRestIsZero)
+TYPED_TEST(CStructSize, AsMuchIsFilledAsTheHostKnowsAndTheRestIsZero)
 {
     TypeParam value;
     std::memset(&value, 0x5A, sizeof(value));
@@ -138,7 +138,7 @@ TYPED_TEST(CStruct, AsMuchIsFilledAsTheHostKnowsAndTheRestIsZero)
     }
 }
 
-TYPED_TEST(CStruct, AnArraysFirstSizeIsItsStride)
+TYPED_TEST(CStructSize, AnArraysFirstSizeIsItsStride)
 {
     const std::size_t stride = this->kSize + 16; // of a newer host
     typename TestFixture::Bytes bytes;

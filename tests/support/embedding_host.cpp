@@ -223,11 +223,24 @@ void EmbeddingHost::lostFrame(const std::function<void(Recorder&, VkCommandBuffe
     context.frameLost(last_frame + 1);
 }
 
-Model EmbeddingHost::upload(const ModelInfo& info)
+void EmbeddingHost::frame(const std::function<void(Recorder&)>& record)
 {
-    std::optional<Model> model;
-    frame([&](Recorder& recorder, VkCommandBuffer) { model.emplace(recorder, info); });
-    return *model;
+    frame([&](Recorder& recorder, VkCommandBuffer) { record(recorder); });
+}
+
+void EmbeddingHost::lostFrame(const std::function<void(Recorder&)>& record)
+{
+    lostFrame([&](Recorder& recorder, VkCommandBuffer) { record(recorder); });
+}
+
+std::uint32_t EmbeddingHost::finish(TreeJob& job)
+{
+    std::uint32_t count = 0;
+    for (; !job.isDone(); ++count)
+    {
+        frame([&](Recorder& recorder) { job.record(recorder); });
+    }
+    return count;
 }
 
 Tree EmbeddingHost::build(const Model& model, const TreeBuildInfo& info)
@@ -235,6 +248,36 @@ Tree EmbeddingHost::build(const Model& model, const TreeBuildInfo& info)
     TreeBuild build(context, model, info);
     finish(build);
     return build.take();
+}
+
+Tree EmbeddingHost::compress(Tree&& octree)
+{
+    TreeCompression compression(context, std::move(octree));
+    finish(compression);
+    return compression.take();
+}
+
+DynamicObjectId EmbeddingHost::add(DynamicTree& tree, const Model& model, const Mat4& to_world)
+{
+    DynamicObjectId object = 0;
+    frame([&](Recorder& recorder) { object = tree.addObject(recorder, model, to_world); });
+    return object;
+}
+
+void EmbeddingHost::update(DynamicTree& tree)
+{
+    do
+    {
+        frame([&](Recorder& recorder) { tree.update(recorder); });
+    } while (tree.needsUpdate());
+}
+
+void EmbeddingHost::edit(DynamicTree& tree, const BrushInfo& brush)
+{
+    for (bool is_recorded = false; !is_recorded;)
+    {
+        frame([&](Recorder& recorder) { is_recorded = tree.edit(recorder, brush); });
+    }
 }
 
 } // namespace zvo::test

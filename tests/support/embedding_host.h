@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
+#include <utility>
 #include <vector>
 
 namespace zvo::test
@@ -73,38 +74,56 @@ public:
     /// Records a frame, submits it, waits, and reports it as done. If record throws, the exception is passed on; the
     /// frame is then lost or, with submits_failed, submitted all the same.
     void frame(const std::function<void(Recorder&, VkCommandBuffer)>& record);
+    void frame(const std::function<void(Recorder&)>& record);
 
     /// Records a frame that never reaches the device.
     void lostFrame(const std::function<void(Recorder&, VkCommandBuffer)>& record);
+    void lostFrame(const std::function<void(Recorder&)>& record);
 
-    /// Records frames until the job, a TreeBuild or a TreeCompression, is done. Returns their number.
-    template <typename Job> std::uint32_t finish(Job& job)
+    /// A Model, Tree, DynamicTree or Environment, which is made in a frame of its own.
+    template <typename Object, typename... Arguments> Object make(Arguments&&... arguments)
     {
-        std::uint32_t count = 0;
-        for (; !job.isDone(); ++count)
-        {
-            frame([&](Recorder& recorder, VkCommandBuffer) { job.record(recorder); });
-        }
-        return count;
+        std::optional<Object> object;
+        frame([&](Recorder& recorder) { object.emplace(recorder, std::forward<Arguments>(arguments)...); });
+        return std::move(*object);
     }
 
-    Model upload(const ModelInfo& info);
-    Tree build(const Model& model, const TreeBuildInfo& info);
+    /// Records frames until the job is done. Returns their number.
+    std::uint32_t finish(TreeJob& job);
 
-    /// Traces a picture of a tree: kWidth * kHeight words, for formats of 4 bytes.
+    Model upload(const ModelInfo& info) { return make<Model>(info); }
+    Tree build(const Model& model, const TreeBuildInfo& info);
+    Tree compress(Tree&& octree);
+
+    DynamicObjectId add(DynamicTree& tree, const Model& model, const Mat4& to_world);
+
+    /// Records updates, one a frame, until the current state is shown.
+    void update(DynamicTree& tree);
+
+    /// Records a dab, in as many frames as there has to be for it.
+    void edit(DynamicTree& tree, const BrushInfo& brush);
+
+    /// Records a picture in a frame of its own. Returns its words. trace: takes a Recorder and a target.
+    template <typename Trace> std::vector<std::uint32_t> picture(TargetImage& image, const Trace& trace)
+    {
+        frame(
+            [&](Recorder& recorder, VkCommandBuffer commands)
+            {
+                image.beginCopies(commands);
+                trace(recorder, image.target());
+                image.read(commands);
+            });
+        return image.words();
+    }
+
+    /// Traces a picture of a tree: kWidth * kHeight words.
     template <typename AnyTree>
     std::vector<std::uint32_t> picture(AnyTree& tree, const CameraInfo& camera, const TraceInfo& info = {})
     {
         Tracer tracer(context, kWidth, kHeight, VK_FORMAT_R8G8B8A8_UNORM);
         TargetImage image(device, VK_FORMAT_R8G8B8A8_UNORM, kWidth, kHeight);
-        frame(
-            [&](Recorder& recorder, VkCommandBuffer commands)
-            {
-                image.beginCopies(commands);
-                tracer.trace(recorder, tree, camera, info, image.target());
-                image.read(commands);
-            });
-        return image.words();
+        return picture(image, [&](Recorder& recorder, const ImageTarget& target)
+                       { tracer.trace(recorder, tree, camera, info, target); });
     }
 
     static constexpr std::uint32_t kWidth = 101; // picture size, no multiple of a tile

@@ -31,10 +31,6 @@ struct Cell
 /// Throws std::out_of_range if a reference leads out of a buffer.
 std::vector<Cell> cellsOf(vk::HeadlessDevice& device, const DeviceTree& tree);
 
-/// The octree of cells, listed as by cellsOf(), breadth first. attributes: with attributes and emission.
-DeviceTree octreeOf(vk::HeadlessDevice& device, const std::vector<Cell>& cells, const Grid& grid, bool attributes,
-                    float emission_scale);
-
 /// The octree of cells, listed as by cellsOf(), with their attributes and emission. It is made on the host, breadth
 /// first.
 DeviceTree octreeOf(vk::HeadlessDevice& device, const std::vector<Cell>& cells, const Grid& grid, float emission_scale);

@@ -55,9 +55,8 @@ DynamicOctree::DynamicOctree(vk::Uploader& device, DeviceTree&& fixed, const Dyn
                 m_deletion_queue),
       m_history(m_overlays.arena(), options.history),
       m_edits(device.device(), m_overlays, m_history, options.edits, options.frames_in_flight, m_deletion_queue),
-      m_frames({&m_objects, &m_edits, &m_history, &m_overlays, &m_deletion_queue}),
-      m_tables(uploadScene(device, Scene{}, true)), m_sum_shift(m_overlays.tree().sums.sum_shift),
-      m_sizes(options.minimal_capacities)
+      m_frames({&m_objects, &m_edits, &m_history, &m_overlays, &m_deletion_queue}), m_tables(uploadColorTables(device)),
+      m_sum_shift(m_overlays.tree().sums.sum_shift), m_sizes(options.minimal_capacities)
 {
     vk::Device& d = device.device();
     m_merge_view = {d, "update/merge_view", 1};

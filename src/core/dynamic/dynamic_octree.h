@@ -234,7 +234,7 @@ private:
     RootHistory m_history;
     Edits m_edits;
     vk::FrameList m_frames;
-    GpuScene m_tables; // an empty scene, for its tables of sRGB codes
+    GpuScene m_tables; // of sRGB codes
     vk::BufferOf<gpu::MergeView> m_merge_view;
     std::uint32_t m_sum_shift; // of the layers
 

@@ -51,14 +51,15 @@ public:
     /// Error{Memory}; then what pictures show stays as it was.
     void reserve(const DeviceTree& tree, const FrameOptions& options);
 
-    /// Records the passes of a whole frame, and makes the picture: addSample(), denoise() and develop(). Light that is kept
-    /// begins a new picture. ray_lists: as in PathTracer::addSample().
+    /// Records the passes of a whole frame, and makes the picture: addSample(), denoise() and develop(). Light that is
+    /// kept begins a new picture. ray_lists: as in PathTracer::addSample().
     void render(vk::FrameGraph& graph, const FrameSubject& subject, const FrameOptions& options,
                 vk::BufferOf<gpu::DispatchArgs>* ray_lists = nullptr);
 
-    /// Records the passes that make the picture of primary rays, or add a sample to each pixel of samples(). Paths begin
-    /// anew by themselves (PathTracer::addSample()); light that is kept does so after beginPicture(), and its samples
-    /// go through other points of the pixels, the same of each. Throws Error{Memory}. Cost: that of the integrator.
+    /// Records the passes that make the picture of primary rays, or add a sample to each pixel of samples(). Paths
+    /// begin anew by themselves (PathTracer::addSample()); light that is kept does so after beginPicture(), and its
+    /// samples go through other points of the pixels, the same of each. Throws Error{Memory}. Cost: that of the
+    /// integrator.
     void addSample(vk::FrameGraph& graph, const FrameSubject& subject, const FrameOptions& options,
                    vk::BufferOf<gpu::DispatchArgs>* ray_lists = nullptr);
 
