@@ -65,18 +65,16 @@ void recordNodes(vk::FrameGraph& graph, EditSite& site, const gpu::Brush& brush,
     {
         const std::uint32_t threads = loneGroupOn(graph.device());
         vk::Pass pass = graph.addPass(gpu::edit::Allocate{.attributes = attributes, .local_size_x = threads});
-        gpu::EditAllocateParams params{};
-        params.cells = pass.readWrite(buffers.cells);
-        params.states = pass.readWrite(site.states);
-        params.cell_count = extent.cell_count;
-        params.inner_count = extent.inner_count;
-        params.from = slots.from;
-        params.to = slots.to;
-        params.kept = dab.kept;
-        params.node_end = site.region.first_node + site.region.node_capacity;
-        params.voxel_end = site.region.first_voxel + site.region.voxel_capacity;
-        params.box = extent.box;
-        pass.dispatch(threads, params);
+        pass.dispatch(threads, {.cells = pass.readWrite(buffers.cells),
+                                .states = pass.readWrite(site.states),
+                                .cell_count = extent.cell_count,
+                                .inner_count = extent.inner_count,
+                                .from = slots.from,
+                                .to = slots.to,
+                                .kept = dab.kept,
+                                .node_end = site.region.first_node + site.region.node_capacity,
+                                .voxel_end = site.region.first_voxel + site.region.voxel_capacity,
+                                .box = extent.box});
     }
     vk::Pass pass = graph.addPass(
         gpu::edit::Nodes{.entries_per_word = tree.entriesPerWord(), .attributes = attributes, .emits = emits});
@@ -106,18 +104,17 @@ void recordVoxelPass(vk::FrameGraph& graph, const Kernel& kernel, EditSite& site
                      const DabExtent& extent, std::uint32_t to, DabBuffers& buffers)
 {
     vk::Pass pass = graph.addPass(kernel);
-    gpu::EditVoxelsParams params{};
-    params.nodes = pass.read(site.tree.nodes);
-    params.cells = pass.read(buffers.cells);
-    params.states = pass.read(site.states);
-    params.attributes = pass.readWrite(site.tree.voxel_attributes);
-    params.emission_words = pass.readWrite(site.tree.emission_words);
-    params.emission = pass.readWrite(site.tree.emission);
-    params.to = to;
-    params.inner_count = extent.inner_count;
-    params.brush = brush;
-    params.box = extent.box;
-    pass.dispatch(std::uint64_t{extent.cell_count - extent.inner_count} * gpu::kEditGroup, params);
+    pass.dispatch(std::uint64_t{extent.cell_count - extent.inner_count} * gpu::kEditGroup,
+                  {.nodes = pass.read(site.tree.nodes),
+                   .cells = pass.read(buffers.cells),
+                   .states = pass.read(site.states),
+                   .attributes = pass.readWrite(site.tree.voxel_attributes),
+                   .emission_words = pass.readWrite(site.tree.emission_words),
+                   .emission = pass.readWrite(site.tree.emission),
+                   .to = to,
+                   .inner_count = extent.inner_count,
+                   .brush = brush,
+                   .box = extent.box});
 }
 
 // Averages the changed nodes, from the leaves up.
@@ -131,31 +128,27 @@ void averageChanged(vk::FrameGraph& graph, EditSite& site, const DabExtent& exte
     {
         --level_count;
         vk::Pass pass = graph.addPass(gpu::edit::Average{.lanes = lanes});
-        gpu::EditAverageParams params{};
-        params.scene = pass.read(tables);
-        params.cells = pass.read(buffers.cells);
-        params.states = pass.read(site.states);
-        params.voxels = pass.read(site.tree.voxel_attributes);
-        params.averages = pass.readWrite(site.tree.node_attributes);
-        params.inner_count = extent.inner_count;
-        params.cell_count = extent.cell_count;
-        params.to = to;
-        params.attribute_offset = site.tree.attributeOffset();
-        pass.dispatch(std::uint64_t{leaf_count} * lanes, params);
+        pass.dispatch(std::uint64_t{leaf_count} * lanes, {.scene = pass.read(tables),
+                                                          .cells = pass.read(buffers.cells),
+                                                          .states = pass.read(site.states),
+                                                          .voxels = pass.read(site.tree.voxel_attributes),
+                                                          .averages = pass.readWrite(site.tree.node_attributes),
+                                                          .inner_count = extent.inner_count,
+                                                          .cell_count = extent.cell_count,
+                                                          .to = to,
+                                                          .attribute_offset = site.tree.attributeOffset()});
     }
     const std::uint32_t threads = loneGroupOn(graph.device());
     vk::Pass pass = graph.addPass(gpu::edit::AverageTop{.lanes = lanes, .local_size_x = threads});
-    gpu::EditAverageTopParams params{};
-    params.scene = pass.read(tables);
-    params.cells = pass.read(buffers.cells);
-    params.states = pass.read(site.states);
-    params.voxels = pass.read(site.tree.voxel_attributes);
-    params.averages = pass.readWrite(site.tree.node_attributes);
-    params.box = extent.box;
-    params.level_count = level_count;
-    params.to = to;
-    params.attribute_offset = site.tree.attributeOffset();
-    pass.dispatch(threads, params);
+    pass.dispatch(threads, {.scene = pass.read(tables),
+                            .cells = pass.read(buffers.cells),
+                            .states = pass.read(site.states),
+                            .voxels = pass.read(site.tree.voxel_attributes),
+                            .averages = pass.readWrite(site.tree.node_attributes),
+                            .box = extent.box,
+                            .level_count = level_count,
+                            .to = to,
+                            .attribute_offset = site.tree.attributeOffset()});
 }
 
 void recordAttributes(vk::FrameGraph& graph, EditSite& site, const gpu::Brush& brush, const DabExtent& extent,
@@ -186,16 +179,14 @@ void recordMarks(vk::FrameGraph& graph, EditSite& site, const std::vector<bool>&
     {
         const bool are_leaves = level + 1 == level_count;
         vk::Pass pass = graph.addPass(gpu::edit::Mark{.leaves = are_leaves});
-        gpu::EditMarkParams params{};
-        params.nodes = pass.read(site.tree.nodes);
-        params.marks = pass.readWrite(buffers.marks);
-        params.voxel_bits = pass.readWrite(buffers.voxel_bits);
-        params.first_node = site.region.first_node;
-        params.node_count = site.region.node_capacity;
-        params.first_voxel = site.region.first_voxel;
-        params.voxel_count = site.region.voxel_capacity;
-        params.level = level;
-        pass.dispatch(site.region.node_capacity, params);
+        pass.dispatch(site.region.node_capacity, {.nodes = pass.read(site.tree.nodes),
+                                                  .marks = pass.readWrite(buffers.marks),
+                                                  .voxel_bits = pass.readWrite(buffers.voxel_bits),
+                                                  .first_node = site.region.first_node,
+                                                  .node_count = site.region.node_capacity,
+                                                  .first_voxel = site.region.first_voxel,
+                                                  .voxel_count = site.region.voxel_capacity,
+                                                  .level = level});
     }
 }
 
@@ -208,21 +199,17 @@ void recordNumbers(vk::FrameGraph& graph, bool are_voxels, const vk::BufferOf<gp
     const auto sum = [&](const auto& kernel)
     {
         vk::Pass pass = graph.addPass(kernel);
-        gpu::EditSumParams params{};
-        params.marks = pass.read(marks);
-        params.partials = pass.readWrite(buffers.partials);
-        params.numbers = pass.write(numbers);
-        params.element_count = static_cast<gpu::uint>(count);
-        pass.dispatch(threads, params);
+        pass.dispatch(threads, {.marks = pass.read(marks),
+                                .partials = pass.readWrite(buffers.partials),
+                                .numbers = pass.write(numbers),
+                                .element_count = static_cast<gpu::uint>(count)});
     };
     sum(gpu::edit::LiveSums{.voxels = are_voxels});
     {
         vk::Pass pass = graph.addPass(gpu::octree::Scan{});
-        gpu::ScanParams params{};
-        params.values = pass.readWrite(buffers.partials);
-        params.total = pass.write(buffers.total);
-        params.count = static_cast<gpu::uint>(divideUp(count, gpu::kScanBlock));
-        pass.dispatch(gpu::kScanGroup, params);
+        pass.dispatch(gpu::kScanGroup, {.values = pass.readWrite(buffers.partials),
+                                        .total = pass.write(buffers.total),
+                                        .count = static_cast<gpu::uint>(divideUp(count, gpu::kScanBlock))});
     }
     sum(gpu::edit::Renumber{.voxels = are_voxels});
 }
@@ -287,18 +274,16 @@ void beginEdits(vk::FrameGraph& graph, EditSite& site)
     DeviceTree& tree = site.tree;
     vk::Pass pass =
         graph.addPass(gpu::edit::Begin{.attributes = tree.hasNodeAttributes(), .ranks = tree.overlays.hasRanks()});
-    gpu::EditBeginParams params{};
-    params.nodes = pass.readWrite(tree.nodes);
-    params.node_attributes = pass.readWrite(tree.node_attributes);
-    params.ranks = ranksOf(pass, tree);
-    params.states = pass.readWrite(site.states);
-    params.static_root = tree.overlays.static_root;
-    params.region_node = site.region.first_node;
-    params.attribute_offset = tree.attributeOffset();
-    params.node_top = site.region.first_node + site.slotCount();
-    params.voxel_top = site.region.first_voxel;
-    params.voxel_count = tree.voxel_count;
-    pass.dispatch(1, params);
+    pass.dispatch(1, {.nodes = pass.readWrite(tree.nodes),
+                      .node_attributes = pass.readWrite(tree.node_attributes),
+                      .ranks = ranksOf(pass, tree),
+                      .states = pass.readWrite(site.states),
+                      .static_root = tree.overlays.static_root,
+                      .region_node = site.region.first_node,
+                      .attribute_offset = tree.attributeOffset(),
+                      .node_top = site.region.first_node + site.slotCount(),
+                      .voxel_top = site.region.first_voxel,
+                      .voxel_count = tree.voxel_count});
 }
 
 void recordDab(vk::FrameGraph& graph, EditSite& site, const Brush& brush, const DabExtent& extent,
@@ -359,32 +344,28 @@ void recordCompaction(vk::FrameGraph& graph, EditSite& site, const OverlayRegion
     if (emits)
     {
         vk::Pass pass = graph.addPass(gpu::edit::MoveEmission{});
-        gpu::EditMoveEmissionParams params{};
-        params.voxel_bits = pass.read(buffers.voxel_bits);
-        params.voxel_numbers = pass.read(buffers.voxel_numbers);
-        params.emission_words = pass.read(site.tree.emission_words);
-        params.emission = pass.readWrite(site.tree.emission);
-        params.first_voxel = site.region.first_voxel;
-        params.voxel_count = site.region.voxel_capacity;
-        params.new_first_voxel = to.first_voxel;
-        pass.dispatch(site.region.voxel_capacity, params);
+        pass.dispatch(site.region.voxel_capacity, {.voxel_bits = pass.read(buffers.voxel_bits),
+                                                   .voxel_numbers = pass.read(buffers.voxel_numbers),
+                                                   .emission_words = pass.read(site.tree.emission_words),
+                                                   .emission = pass.readWrite(site.tree.emission),
+                                                   .first_voxel = site.region.first_voxel,
+                                                   .voxel_count = site.region.voxel_capacity,
+                                                   .new_first_voxel = to.first_voxel});
     }
     vk::Pass pass = graph.addPass(gpu::edit::MoveStates{});
-    gpu::EditMoveStatesParams params{};
-    params.states = pass.read(site.states);
-    params.new_states = pass.write(states);
-    params.marks = pass.read(buffers.marks);
-    params.numbers = pass.read(buffers.numbers);
-    params.voxel_bits = pass.read(buffers.voxel_bits);
-    params.voxel_numbers = pass.read(buffers.voxel_numbers);
-    params.slot_count = site.slotCount();
-    params.first_node = site.region.first_node;
-    params.node_count = site.region.node_capacity;
-    params.first_voxel = site.region.first_voxel;
-    params.voxel_count = attributes ? site.region.voxel_capacity : 0;
-    params.new_first_node = to.first_node;
-    params.new_first_voxel = to.first_voxel;
-    pass.dispatch(site.slotCount(), params);
+    pass.dispatch(site.slotCount(), {.states = pass.read(site.states),
+                                     .new_states = pass.write(states),
+                                     .marks = pass.read(buffers.marks),
+                                     .numbers = pass.read(buffers.numbers),
+                                     .voxel_bits = pass.read(buffers.voxel_bits),
+                                     .voxel_numbers = pass.read(buffers.voxel_numbers),
+                                     .slot_count = site.slotCount(),
+                                     .first_node = site.region.first_node,
+                                     .node_count = site.region.node_capacity,
+                                     .first_voxel = site.region.first_voxel,
+                                     .voxel_count = attributes ? site.region.voxel_capacity : 0,
+                                     .new_first_node = to.first_node,
+                                     .new_first_voxel = to.first_voxel});
 }
 
 } // namespace zvo

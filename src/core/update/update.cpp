@@ -104,22 +104,20 @@ void listTouched(vk::FrameGraph& graph, const UpdateJob& job, UpdateBuffers& buf
     }
     graph.update(buffers.ranges, 0, ranges);
     vk::Pass pass = graph.addPass(gpu::update::Insert{.wide_keys = hasWideKeys(job.tree.grid)});
-    gpu::InsertParams params{};
-    params.layers = readLayers(pass, job, buffers);
-    params.bricks = pass.readWrite(buffers.bricks);
-    params.heads = pass.readWrite(buffers.heads);
-    params.links = pass.write(buffers.links);
-    params.items = pass.write(buffers.items);
-    params.counters = pass.readWrite(buffers.counters);
-    params.state = pass.readWrite(buffers.state);
-    params.ranges = pass.readWrite(buffers.ranges);
-    params.args = pass.write(buffers.level_args);
-    params.layer_count = static_cast<std::uint32_t>(layers.size());
-    params.record_count = record_count;
-    params.brick_mask = static_cast<std::uint32_t>(buffers.bricks.count() - 1);
-    params.level_count = state.level_count;
-    params.max_groups_x = state.max_groups_x;
-    pass.dispatch(record_count, params);
+    pass.dispatch(record_count, {.layers = readLayers(pass, job, buffers),
+                                 .bricks = pass.readWrite(buffers.bricks),
+                                 .heads = pass.readWrite(buffers.heads),
+                                 .links = pass.write(buffers.links),
+                                 .items = pass.write(buffers.items),
+                                 .counters = pass.readWrite(buffers.counters),
+                                 .state = pass.readWrite(buffers.state),
+                                 .ranges = pass.readWrite(buffers.ranges),
+                                 .args = pass.write(buffers.level_args),
+                                 .layer_count = static_cast<std::uint32_t>(layers.size()),
+                                 .record_count = record_count,
+                                 .brick_mask = static_cast<std::uint32_t>(buffers.bricks.count() - 1),
+                                 .level_count = state.level_count,
+                                 .max_groups_x = state.max_groups_x});
 }
 
 // Merges the roots, and writes the levels of few nodes below them.
@@ -189,16 +187,16 @@ void writeNodes(vk::FrameGraph& graph, const UpdateJob& job, UpdateBuffers& buff
 void assignBases(vk::FrameGraph& graph, const UpdateJob& job, UpdateBuffers& buffers, std::uint32_t level)
 {
     vk::Pass pass = graph.addPass(gpu::update::Assign{});
-    gpu::OverlayAssignParams params{};
-    params.nodes = pass.readWrite(job.tree.nodes);
-    params.counts = pass.read(buffers.counts);
-    params.partials = pass.read(buffers.partials);
-    params.state = pass.read(buffers.state);
-    params.level = level;
-    params.first_node = job.region.first_node;
-    params.first_voxel = job.region.first_voxel;
-    params.first_partial = firstPartial(buffers, level);
-    pass.dispatchIndirect(buffers.args, gpu::kArgsAssign, params, partialsPerLevel(buffers));
+    pass.dispatchIndirect(buffers.args, gpu::kArgsAssign,
+                          {.nodes = pass.readWrite(job.tree.nodes),
+                           .counts = pass.read(buffers.counts),
+                           .partials = pass.read(buffers.partials),
+                           .state = pass.read(buffers.state),
+                           .level = level,
+                           .first_node = job.region.first_node,
+                           .first_voxel = job.region.first_voxel,
+                           .first_partial = firstPartial(buffers, level)},
+                          partialsPerLevel(buffers));
 }
 
 // Parameters of update/merge or update/merge_emission.
@@ -236,19 +234,20 @@ void averageTouched(vk::FrameGraph& graph, const UpdateJob& job, UpdateBuffers& 
     for (; height + gpu::kRootLevels < level_count; ++height)
     {
         vk::Pass pass = graph.addPass(gpu::update::Average{.lanes = lanes, .local_size_x = gpu::kNodesGroup * lanes});
-        gpu::OverlayAverageParams params{};
-        params.scene = pass.read(job.tables);
-        params.items = pass.read(buffers.items);
-        params.ranges = pass.read(buffers.ranges);
-        params.touched = pass.read(buffers.touched);
-        params.nodes = pass.read(job.tree.nodes);
-        params.children = height == 0 ? pass.read(job.tree.voxel_attributes) : pass.read(job.tree.node_attributes);
-        params.averages = pass.readWrite(job.tree.node_attributes);
-        params.state = pass.read(buffers.state);
-        params.item_range = height;
-        params.children_offset = height == 0 ? 0 : job.tree.attributeOffset();
-        params.attribute_offset = job.tree.attributeOffset();
-        pass.dispatchIndirect(buffers.level_args, height, params, divideUp(buffers.bricks.count(), gpu::kNodesGroup));
+        pass.dispatchIndirect(
+            buffers.level_args, height,
+            {.scene = pass.read(job.tables),
+             .items = pass.read(buffers.items),
+             .ranges = pass.read(buffers.ranges),
+             .touched = pass.read(buffers.touched),
+             .nodes = pass.read(job.tree.nodes),
+             .children = height == 0 ? pass.read(job.tree.voxel_attributes) : pass.read(job.tree.node_attributes),
+             .averages = pass.readWrite(job.tree.node_attributes),
+             .state = pass.read(buffers.state),
+             .item_range = height,
+             .children_offset = height == 0 ? 0 : job.tree.attributeOffset(),
+             .attribute_offset = job.tree.attributeOffset()},
+            divideUp(buffers.bricks.count(), gpu::kNodesGroup));
     }
     const bool are_leaves = height == 0;
     const std::uint32_t threads = loneGroupOn(graph.device());
@@ -298,20 +297,18 @@ void mergeAttributes(vk::FrameGraph& graph, const UpdateJob& job, UpdateBuffers&
 void showOverlay(vk::FrameGraph& graph, const UpdateJob& job, UpdateBuffers& buffers, const RootSlot& last)
 {
     vk::Pass pass = graph.addPass(gpu::update::Finish{.attributes = job.tree.node_attributes.count() != 0});
-    gpu::FinishParams params{};
-    params.nodes = pass.readWrite(job.tree.nodes);
-    params.node_attributes = pass.readWrite(job.tree.node_attributes);
-    params.counters = pass.read(buffers.counters);
-    params.state = pass.read(buffers.state);
-    params.results = pass.readWrite(job.results);
-    params.roots = pass.readWrite(job.roots);
-    params.root = job.region.first_node;
-    params.last_root = last.root;
-    params.last_slot = last.slot;
-    params.slot = job.slot;
-    params.sum_shift = job.sum_shift;
-    params.attribute_offset = job.tree.attributeOffset();
-    pass.dispatch(1, params);
+    pass.dispatch(1, {.nodes = pass.readWrite(job.tree.nodes),
+                      .node_attributes = pass.readWrite(job.tree.node_attributes),
+                      .counters = pass.read(buffers.counters),
+                      .state = pass.read(buffers.state),
+                      .results = pass.readWrite(job.results),
+                      .roots = pass.readWrite(job.roots),
+                      .root = job.region.first_node,
+                      .last_root = last.root,
+                      .last_slot = last.slot,
+                      .slot = job.slot,
+                      .sum_shift = job.sum_shift,
+                      .attribute_offset = job.tree.attributeOffset()});
 }
 
 UpdateBuffers::UpdateBuffers(vk::Device& device, const UpdateCapacities& capacities, const Grid& grid)
@@ -362,14 +359,12 @@ void addMergeStages(const UpdateJob& job, UpdateBuffers& buffers, UpdateStages& 
 void showRoot(vk::FrameGraph& graph, DeviceTree& tree, const vk::BufferOf<gpu::uint>& roots, const RootSlot& root)
 {
     vk::Pass pass = graph.addPass(gpu::update::Show{.attributes = tree.node_attributes.count() != 0});
-    gpu::ShowParams params{};
-    params.nodes = pass.readWrite(tree.nodes);
-    params.node_attributes = pass.readWrite(tree.node_attributes);
-    params.roots = pass.read(roots);
-    params.root = root.root;
-    params.slot = root.slot;
-    params.attribute_offset = tree.attributeOffset();
-    pass.dispatch(1, params);
+    pass.dispatch(1, {.nodes = pass.readWrite(tree.nodes),
+                      .node_attributes = pass.readWrite(tree.node_attributes),
+                      .roots = pass.read(roots),
+                      .root = root.root,
+                      .slot = root.slot,
+                      .attribute_offset = tree.attributeOffset()});
 }
 
 } // namespace zvo
