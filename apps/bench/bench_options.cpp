@@ -4,10 +4,10 @@
 #include "bench/bench_balance.h"
 #include "bench/bench_baselines.h"
 #include "bench/bench_build.h"
+#include "bench/bench_cache.h"
 #include "bench/bench_denoise.h"
 #include "bench/bench_dynamic.h"
 #include "bench/bench_edit.h"
-#include "bench/bench_kept.h"
 #include "bench/bench_path.h"
 #include "bench/bench_rays.h"
 #include "bench/bench_report.h"
@@ -80,12 +80,12 @@ Examples:
   zvo-bench path scenes/atrium.glb --environment forest.hdr
   zvo-bench path scenes/atrium.glb --resolutions 512,2048 --size 1920x1080)";
 
-constexpr const char* kKeptFooter = R"(
+constexpr const char* kCacheFooter = R"(
 By day, and at night where voxels give off light; primary rays and paths are there for comparison. Of scene files: how
 fast light follows what moves in them, and how much it flickers.
 
 Examples:
-  zvo-bench kept scenes/atrium.glb scenes/atrium_knot.scene.json --size 160x90)";
+  zvo-bench cache scenes/atrium.glb scenes/atrium_knot.scene.json --size 160x90)";
 
 constexpr const char* kDenoiseFooter = R"(
 Pictures of 1, 4, 16 and 64 paths a pixel, with and without denoising, by day, and at night where voxels give off light.
@@ -243,7 +243,7 @@ void addOptions(CLI::App& app, BenchPathOptions& options)
     addTreeAndDevice(app, options);
 }
 
-void addOptions(CLI::App& app, BenchKeptOptions& options)
+void addOptions(CLI::App& app, BenchCacheOptions& options)
 {
     addScenes(app, options, kScenesOrFiles, kUsualFolderOrFiles);
     addResolutions(app, options, "256");
@@ -323,8 +323,8 @@ void runBenchCommandLine(int argc, const char* const* argv)
     commands.add("edit", "measure strokes of a brush: dabs, undo and redo", kEditFooter, addOptions, benchEdit);
     commands.add("path", "measure path tracing: what rays cost, and variance by the way of finding light", kPathFooter,
                  addOptions, benchPath);
-    commands.add("kept", "measure pictures of light that is kept on voxels, beside one of many paths", kKeptFooter,
-                 addOptions, benchKept);
+    commands.add("cache", "measure pictures by the radiance cache, beside one of many paths", kCacheFooter, addOptions,
+                 benchCache);
     commands.add("denoise", "measure denoised pictures of few paths, beside one of many", kDenoiseFooter, addOptions,
                  benchDenoise);
     commands.add("baselines", "measure the algorithms of zvo's sources, and other programs, beside zvo's",

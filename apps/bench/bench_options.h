@@ -3,7 +3,7 @@
 #pragma once
 
 #include "common/scene_options.h"
-#include "core/radiance/radiance_cache.h"
+#include "core/radiance/device_radiance_cache.h"
 #include "io/scene/load_scene.h"
 #include "zvo/tree.h"
 #include "zvo/types.h"
@@ -82,7 +82,7 @@ struct BenchPathOptions : RepeatedBenchOptions, PictureSizeOptions
     std::vector<std::filesystem::path> environments; // maps
 };
 
-struct BenchKeptOptions : LitBenchOptions, PictureSizeOptions
+struct BenchCacheOptions : LitBenchOptions, PictureSizeOptions
 {
     std::uint32_t faces = RadianceOptions().faces; // that a frame samples at most
     TreeStructure structure = TreeStructure::Svo;  // of the static part of scene files

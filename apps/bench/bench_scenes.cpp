@@ -107,7 +107,7 @@ void checkPresent(const std::vector<fs::path>& paths, bool allows_scene_files)
         if (isSceneFile(path) && !allows_scene_files)
         {
             throw Error(ErrorCode::Usage,
-                        fmt::format("{} is a scene file, which the commands dynamic, kept and baselines measure",
+                        fmt::format("{} is a scene file, which the commands dynamic, cache and baselines measure",
                                     path.string()));
         }
         std::error_code ignored;

@@ -21,6 +21,7 @@ template <typename T> struct Named
 {
     std::string_view name;
     T value;
+    std::string_view old_name = {}; // is understood, too
 };
 template <typename T, std::size_t count> using Names = std::array<Named<T>, count>;
 
@@ -35,10 +36,10 @@ inline constexpr auto kViews = std::to_array<Named<View>>({{"color", View::Color
                                                            {"origin", View::Origin}});
 inline constexpr auto kIntegrators = std::to_array<Named<Integrator>>({{"primary", Integrator::Primary},
                                                                        {"path", Integrator::Path},
-                                                                       {"cached", Integrator::Cached},
+                                                                       {"cache", Integrator::Cache, "cached"},
                                                                        {"cones", Integrator::Cones}});
 inline constexpr const char* kIntegratorHelp =
-    "light by a ray to the sun and a simple sky, by path tracing, kept on the voxels, or through cones that read "
+    "light by a ray to the sun and a simple sky, by path tracing, from the radiance cache, or through cones that read "
     "that, to compare with (default primary)";
 inline constexpr auto kPresentModes =
     std::to_array<Named<vk::PresentMode>>({{"fifo", vk::PresentMode::Fifo},
@@ -69,13 +70,20 @@ std::string listOf(const Names<T, count>& names, std::string_view between = ", "
     return list;
 }
 
+/// The element of that name, or old name; the end if there is none.
+template <typename T, std::size_t count> constexpr auto findNamed(const Names<T, count>& names, std::string_view name)
+{
+    return std::ranges::find_if(names, [&](const Named<T>& named)
+                                { return named.name == name || (!name.empty() && named.old_name == name); });
+}
+
 /// The value of that name. Throws Error{Usage}, which names the option. expected: what the message says; if empty, it
 /// lists the names.
 template <typename T, std::size_t count>
 T parseNamed(std::string_view option, std::string_view text, const Names<T, count>& names,
              std::string_view expected = {})
 {
-    const auto found = std::ranges::find(names, text, &Named<T>::name);
+    const auto found = findNamed(names, text);
     if (found == names.end())
     {
         throw Error(ErrorCode::Usage,

@@ -47,7 +47,7 @@ struct RenderOptions
     EnvironmentOptions environment;       // this and the next two: of pictures with samples
     std::optional<std::uint32_t> samples; // a pixel
     std::optional<double> time_limit;     // seconds, after which no sample begins
-    std::uint32_t settle = 128;           // frames before the first picture; Integrator::Cached and Cones
+    std::uint32_t settle = 128;           // frames before the first picture; Integrator::Cache and Cones
     bool aovs = false;                    // writes what the picture shows beside its light, too; Integrator::Path
     std::optional<std::pair<std::uint32_t, std::uint32_t>> frames; // first and last
     std::optional<TreeStructure> structure; // of the static part; not given: an octree, or the file's
@@ -57,7 +57,7 @@ struct RenderOptions
     [[nodiscard]] bool hasSamples() const { return frame.integrator != Integrator::Primary; }
 
     /// The samples of a pixel: paths, or frames.
-    [[nodiscard]] std::uint32_t sampleCount() const { return samples.value_or(keepsLight(frame.integrator) ? 16 : 64); }
+    [[nodiscard]] std::uint32_t sampleCount() const { return samples.value_or(usesCache(frame.integrator) ? 16 : 64); }
 };
 
 /// `zvo render`: voxelizes scenes and writes a picture of them, or a series. Throws Error.

@@ -149,7 +149,7 @@ public:
     {
         if (file)
         {
-            writeReport(*file, m_report.json(m_renderer.cappedRays(), m_renderer.kept()));
+            writeReport(*file, m_report.json(m_renderer.cappedRays(), m_renderer.cache()));
         }
         m_report.tell(m_pictures.count(), m_renderer.cappedRays());
     }

@@ -112,7 +112,7 @@ Json RenderReport::rebuiltFrame(std::uint32_t number, double seconds, const Buil
             {"build_ms", result.operationMs("octree")}};
 }
 
-Json RenderReport::json(std::uint64_t capped_rays, const RadianceCache* kept) const
+Json RenderReport::json(std::uint64_t capped_rays, const DeviceRadianceCache* cache) const
 {
     Json json = m_json;
     double trace_ms = 0;
@@ -136,9 +136,9 @@ Json RenderReport::json(std::uint64_t capped_rays, const RadianceCache* kept) co
     json["node_paths_ms"] = sumMs(m_paths_passes);
     json["capped_rays"] = capped_rays;
     json["picture"] = {{"width", m_options.width}, {"height", m_options.height}, {"count", m_times.size()}};
-    if (kept != nullptr)
+    if (cache != nullptr)
     {
-        json["cached"] = keptJson(*kept);
+        json["cached"] = cacheJson(*cache);
     }
     else if (m_times.front().samples != 0)
     {
@@ -193,15 +193,15 @@ Json RenderReport::pathsJson() const
     return json;
 }
 
-Json RenderReport::keptJson(const RadianceCache& kept) const
+Json RenderReport::cacheJson(const DeviceRadianceCache& cache) const
 {
-    const gpu::RadianceCounters counters = m_device.download(kept.counters()).front();
+    const gpu::RadianceCounters counters = m_device.download(cache.counters()).front();
     Json json = samplesJson();
     json["settle"] = m_options.settle;
     json["rays"] = m_options.frame.radiance.faces;
     json["faces"] = counters.face_count;
     json["faces_refused"] = counters.refused;
-    json["bytes"] = kept.bytes();
+    json["bytes"] = cache.bytes();
     return json;
 }
 

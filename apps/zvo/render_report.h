@@ -53,15 +53,15 @@ public:
     [[nodiscard]] Json rebuiltFrame(std::uint32_t number, double seconds, const BuildResult& result,
                                     std::uint64_t triangle_count) const;
 
-    /// The whole report, after all pictures. kept: null without light on voxels.
-    [[nodiscard]] Json json(std::uint64_t capped_rays, const RadianceCache* kept) const;
+    /// The whole report, after all pictures. cache: null without light on voxels.
+    [[nodiscard]] Json json(std::uint64_t capped_rays, const DeviceRadianceCache* cache) const;
 
     /// Tells of the run on standard error, after all pictures. picture_count: how many were asked for.
     void tell(std::uint32_t picture_count, std::uint64_t capped_rays) const;
 
 private:
     [[nodiscard]] Json pathsJson() const;
-    [[nodiscard]] Json keptJson(const RadianceCache& kept) const;
+    [[nodiscard]] Json cacheJson(const DeviceRadianceCache& cache) const;
     [[nodiscard]] Json samplesJson() const;
 
     const RenderOptions& m_options;

@@ -123,7 +123,8 @@ std::vector<std::uint8_t> Renderer::renderPrimary(PictureTimes& times)
     return encodePicture();
 }
 
-// The picture whose light is computed by samples; nothing, with a warning, if there is no room to keep light on voxels.
+// The picture whose light is computed by samples; nothing, with a warning, if there is no room to have a radiance
+// cache.
 std::optional<std::vector<std::uint8_t>> Renderer::renderSamplesOrWarn(Progress& progress, PictureTimes& times)
 {
     try
@@ -132,13 +133,12 @@ std::optional<std::vector<std::uint8_t>> Renderer::renderSamplesOrWarn(Progress&
     }
     catch (const Error& error)
     {
-        if (error.code() != ErrorCode::Memory || !keepsLight(m_frame.integrator) ||
+        if (error.code() != ErrorCode::Memory || !usesCache(m_frame.integrator) ||
             extensionOf(m_options.output.path) != ".png")
         {
             throw;
         }
-        talk(fmt::format("warning: no light is kept on voxels, and pictures are by --integrator primary: {}",
-                         error.what()));
+        talk(fmt::format("warning: no radiance cache, and pictures are by --integrator primary: {}", error.what()));
         times = {};
         return std::nullopt;
     }
@@ -164,15 +164,15 @@ std::vector<std::uint8_t> Renderer::renderSamples(Progress& progress, PictureTim
         append(times.passes, m_device.run([&](vk::FrameGraph& graph) { m_renderer.denoise(graph, m_frame); }));
     }
     times.trace_ms = sumMs(times.passes);
-    const auto& status = keepsLight(m_frame.integrator) ? m_renderer.cache().status() : m_renderer.pathStatus();
+    const auto& status = usesCache(m_frame.integrator) ? m_renderer.cache().status() : m_renderer.pathStatus();
     m_capped_rays = m_device.download(status).front().capped_rays; // of all pictures so far
     return encodeSamples(times);
 }
 
-// Brings the light that is kept on voxels up to date before the first picture.
+// Brings the radiance cache up to date before the first picture.
 void Renderer::settle(Progress& progress, PictureTimes& times)
 {
-    const std::uint32_t count = keepsLight(m_frame.integrator) ? m_options.settle : 0;
+    const std::uint32_t count = usesCache(m_frame.integrator) ? m_options.settle : 0;
     for (std::uint32_t frame = 0; frame < count && !interrupted(); ++frame)
     {
         append(times.passes,

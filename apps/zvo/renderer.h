@@ -47,8 +47,11 @@ public:
     /// The number of rays of all pictures that were given up.
     [[nodiscard]] std::uint64_t cappedRays() const { return m_capped_rays; }
 
-    /// What is kept on voxels; null for other integrators.
-    [[nodiscard]] const RadianceCache* kept() { return keepsLight(m_frame.integrator) ? &m_renderer.cache() : nullptr; }
+    /// The radiance cache; null for other integrators.
+    [[nodiscard]] const DeviceRadianceCache* cache()
+    {
+        return usesCache(m_frame.integrator) ? &m_renderer.cache() : nullptr;
+    }
 
 private:
     using Clock = std::chrono::steady_clock;

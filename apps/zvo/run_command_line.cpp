@@ -101,15 +101,15 @@ void addPathOptions(CLI::App& render, RenderOptions& options)
     addNamed(render, "--integrator", options.frame.integrator, kIntegrators, kIntegratorHelp);
     PathOptions& path = options.frame.path;
     addValue(render, "--spp", options.samples, integerIn(1, 1U << 24), "N",
-             fmt::format("paths a pixel, or frames of --integrator cached, 1 to {} (default 64, or 16)", 1U << 24));
+             fmt::format("paths a pixel, or frames of --integrator cache, 1 to {} (default 64, or 16)", 1U << 24));
     addValue(render, "--bounces", path.bounces, integerIn(0, kBouncesMax), "N",
              fmt::format("diffuse reflections of a path, 0 to {} (default 8)", kBouncesMax));
     addValue(render, "--seed", path.seed, integerIn(0, UINT32_MAX), "N",
              fmt::format("of the paths' random numbers, 0 to {} (default 0)", UINT32_MAX));
     addValue(render, "--settle", options.settle, integerIn(0, 1U << 24), "N",
-             fmt::format("frames of --integrator cached before the first picture, 0 to {} (default 64)", 1U << 24));
+             fmt::format("frames of --integrator cache before the first picture, 0 to {} (default 64)", 1U << 24));
     addValue(render, "--rays", options.frame.radiance.faces, integerIn(1, kRadianceFacesMax), "N",
-             fmt::format("faces that a frame of --integrator cached samples at most, 1 to {} (default 16384): each "
+             fmt::format("faces that a frame of --integrator cache samples at most, 1 to {} (default 16384): each "
                          "takes up to two rays and two shadow rays",
                          kRadianceFacesMax));
     addValue(render, "--aperture", path.lens_radius, parsePositive, "RADIUS",
@@ -287,8 +287,8 @@ void checkIntegratorOptions(const RenderOptions& options)
 {
     using Integrators = std::initializer_list<Integrator>;
     const Integrators of_paths = {Integrator::Path};
-    const Integrators of_kept = {Integrator::Cached, Integrator::Cones};
-    const Integrators of_samples = {Integrator::Path, Integrator::Cached, Integrator::Cones};
+    const Integrators of_cache = {Integrator::Cache, Integrator::Cones};
+    const Integrators of_samples = {Integrator::Path, Integrator::Cache, Integrator::Cones};
     const Integrators of_primary = {Integrator::Primary};
     const RenderOptions plain;
     const FrameOptions& frame = options.frame;
@@ -297,8 +297,8 @@ void checkIntegratorOptions(const RenderOptions& options)
         {"--spp", options.samples.has_value(), of_samples},
         {"--bounces", frame.path.bounces != plain.frame.path.bounces, of_paths},
         {"--seed", frame.path.seed != plain.frame.path.seed, of_samples},
-        {"--settle", options.settle != plain.settle, of_kept},
-        {"--rays", frame.radiance != plain.frame.radiance, of_kept},
+        {"--settle", options.settle != plain.settle, of_cache},
+        {"--rays", frame.radiance != plain.frame.radiance, of_cache},
         {"--aperture", frame.path.lens_radius != plain.frame.path.lens_radius, of_paths},
         {"--focus", frame.path.focus_distance != plain.frame.path.focus_distance, of_paths},
         {"--environment", environment.map.has_value(), of_samples},

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A host that rasterizes, lit by zvo: its meshes are voxels, too, zvo keeps light on their faces, and the host's
+// A host that rasterizes, lit by zvo: its meshes are voxels, too, zvo caches light on their faces, and the host's
 // fragment shader (mesh.frag) looks it up. A ring moves through a room with a lamp; light and shadows follow.
 //
 //     embed_gi before.ppm after.ppm      while the ring stands still, and after it has moved
@@ -90,7 +90,7 @@ void embed(const host::Options& options)
                   is_first ? VK_ATTACHMENT_LOAD_OP_CLEAR : VK_ATTACHMENT_LOAD_OP_LOAD);
     };
     // Rays of the same camera, on a coarse grid, find the faces that are seen.
-    zvo::KeptLight light(context, {.width = kSize.width / 2, .height = kSize.height / 2});
+    zvo::RadianceCache light(context, {.width = kSize.width / 2, .height = kSize.height / 2});
     std::optional<zvo::Environment> outside;
     std::optional<zvo::DynamicTree> tree;
     zvo::DynamicObjectId object = 0;

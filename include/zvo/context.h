@@ -117,8 +117,8 @@ private:
 /// The command buffer must be in the recording state, outside a render pass, and stays so. Of its state, zvo changes
 /// only the compute pipeline and its push constants. Work is ordered: a recording begins behind all work of zvo that
 /// was submitted to the same queue before it (or for which a semaphore makes it wait), and behind the readers. zvo
-/// records the barriers among its own resources. The barriers for the host's images, and for trees and kept light that
-/// the host's shaders read, are up to the host: each operation names the stages and accesses on its side.
+/// records the barriers among its own resources. The barriers for the host's images, and for trees and radiance caches
+/// that the host's shaders read, are up to the host: each operation names the stages and accesses on its side.
 ///
 /// After an exception the command buffer is as valid as before: it can be submitted, or thrown away
 /// (Context::frameLost()).
@@ -127,14 +127,14 @@ class ZVO_API Recorder
 public:
     /// frame: a number of the host's, or the value that a timeline semaphore will get when the frame is done; never
     /// lower than that of the frame before. Several recordings may have the same frame. readers: stages in which the
-    /// host's own shaders read trees and kept light. Throws Error{Usage} for null, for a lower number, and while
+    /// host's own shaders read trees and radiance caches. Throws Error{Usage} for null, for a lower number, and while
     /// another Recorder exists.
     Recorder(Context& context, VkCommandBuffer commands, std::uint64_t frame, VkPipelineStageFlags2 readers = 0);
     ~Recorder();
     Recorder(const Recorder&) = delete;
     Recorder& operator=(const Recorder&) = delete;
 
-    /// Records the barrier after which the host's own shaders, in these stages, see all trees and kept light as
+    /// Records the barrier after which the host's own shaders, in these stages, see all trees and radiance caches as
     /// they have been recorded so far, through their addresses. Access: VK_ACCESS_2_SHADER_STORAGE_READ_BIT. stages: 0
     /// records nothing. Throws Error{Usage} if none of the stages runs shaders.
     void makeVisible(VkPipelineStageFlags2 stages);

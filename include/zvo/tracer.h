@@ -15,7 +15,7 @@
 namespace zvo
 {
 
-class KeptLight; // zvo/kept_light.h
+class RadianceCache; // zvo/radiance_cache.h
 
 /// The position and direction of a picture's view, in world space. Pixels are square.
 struct CameraInfo
@@ -62,8 +62,8 @@ struct PathInfo
     std::uint32_t history_max = 16; // denoise: samples of earlier pictures that count at most in a pixel; 0: none
 };
 
-/// Options of a picture of kept light.
-struct KeptPictureInfo
+/// Options of a picture by the radiance cache.
+struct CachedPictureInfo
 {
     bool automatic_exposure = true; // as PathInfo's
     float exposure = 1.0F;
@@ -137,11 +137,11 @@ public:
     void tracePaths(Recorder& recorder, DynamicTree& tree, Environment& environment, const CameraInfo& camera,
                     const PathInfo& info, const ImageTarget& color);
 
-    /// Records the passes that show the light that is kept on voxels, and the copy of the picture to the host's image:
-    /// the camera's rays, the light where they hit, lamps and what is outside, as `zvo render --integrator cached`
-    /// shows them. tree, environment: those of the last KeptLight::update(), which comes before, unchanged since. The
-    /// camera may be another one, and the picture larger than the rays that the light has: faces that these have not
-    /// found show the light of a brick around them, or are black where none keeps any.
+    /// Records the passes that show the radiance cache, and the copy of the picture to the host's image:
+    /// the camera's rays, the light where they hit, lamps and what is outside, as `zvo render --integrator cache`
+    /// shows them. tree, environment: those of the last RadianceCache::update(), which comes before, unchanged since.
+    /// The camera may be another one, and the picture larger than the rays that the light has: faces that these have
+    /// not found show the light of a brick around them, or are black where none keeps any.
     ///
     /// Stages, barriers and what images need: as trace(). Memory, from the first call on: at most 20 bytes a pixel.
     /// Cost: pixels.
@@ -149,10 +149,10 @@ public:
     /// Throws Error{Usage} as trace() does for images and cameras, for an exposure that is negative or not finite, for
     /// an environment that was lost, and where update() has not come before; then nothing is recorded. Throws
     /// Error{Memory}, and what making a kernel throws; then no image is written.
-    void traceKept(Recorder& recorder, const Tree& tree, Environment& environment, KeptLight& light,
-                   const CameraInfo& camera, const KeptPictureInfo& info, const ImageTarget& color);
-    void traceKept(Recorder& recorder, DynamicTree& tree, Environment& environment, KeptLight& light,
-                   const CameraInfo& camera, const KeptPictureInfo& info, const ImageTarget& color);
+    void traceCached(Recorder& recorder, const Tree& tree, Environment& environment, RadianceCache& light,
+                     const CameraInfo& camera, const CachedPictureInfo& info, const ImageTarget& color);
+    void traceCached(Recorder& recorder, DynamicTree& tree, Environment& environment, RadianceCache& light,
+                     const CameraInfo& camera, const CachedPictureInfo& info, const ImageTarget& color);
 
     /// Samples of each pixel in the picture that tracePaths() has recorded last; 0: none, or the call failed, or its
     /// frame was lost.

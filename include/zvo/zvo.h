@@ -49,7 +49,7 @@ typedef struct ZvoTreeJob ZvoTreeJob;
 typedef struct ZvoDynamicTree ZvoDynamicTree;
 typedef struct ZvoEnvironment ZvoEnvironment;
 typedef struct ZvoTracer ZvoTracer;
-typedef struct ZvoKeptLight ZvoKeptLight;
+typedef struct ZvoRadianceCache ZvoRadianceCache;
 
 // Structs without a size, which stay as they are.
 
@@ -601,66 +601,68 @@ ZVO_C_API ZvoResult zvoCameraLookAt(const double eye[3], const double target[3],
 ZVO_C_API ZvoResult zvoCameraRays(const ZvoCameraInfo* camera, const ZvoGrid* grid, uint32_t height,
                                   ZvoCameraRays* rays);
 
-// zvo::KeptLight.
+// zvo::RadianceCache.
 
-/// As zvo::KeptLightInfo.
-typedef struct ZvoKeptLightInfo
+/// As zvo::RadianceCacheInfo.
+typedef struct ZvoRadianceCacheInfo
 {
     size_t struct_size;
     uint64_t faces;
     uint32_t width;
     uint32_t height;
-} ZvoKeptLightInfo;
+} ZvoRadianceCacheInfo;
 
-#define ZVO_KEPT_LIGHT_INFO_INIT ZVO_STRUCT_INIT(ZvoKeptLightInfo, 0, 160, 90)
+#define ZVO_RADIANCE_CACHE_INFO_INIT ZVO_STRUCT_INIT(ZvoRadianceCacheInfo, 0, 160, 90)
 
-/// As zvo::KeptFrameInfo.
-typedef struct ZvoKeptFrameInfo
+/// As zvo::CachedFrameInfo.
+typedef struct ZvoCachedFrameInfo
 {
     size_t struct_size;
     uint32_t rays;
     uint32_t seed;
-} ZvoKeptFrameInfo;
+} ZvoCachedFrameInfo;
 
-#define ZVO_KEPT_FRAME_INFO_INIT ZVO_STRUCT_INIT(ZvoKeptFrameInfo, 16384, 0)
+#define ZVO_CACHED_FRAME_INFO_INIT ZVO_STRUCT_INIT(ZvoCachedFrameInfo, 16384, 0)
 
-/// As zvo::KeptLightStats.
-typedef struct ZvoKeptLightStats
+/// As zvo::RadianceCacheStats.
+typedef struct ZvoRadianceCacheStats
 {
     size_t struct_size;
     uint64_t faces;
     uint64_t refused;
-} ZvoKeptLightStats;
+} ZvoRadianceCacheStats;
 
-#define ZVO_KEPT_LIGHT_STATS_INIT ZVO_STRUCT_INIT(ZvoKeptLightStats, 0, 0)
+#define ZVO_RADIANCE_CACHE_STATS_INIT ZVO_STRUCT_INIT(ZvoRadianceCacheStats, 0, 0)
 
-ZVO_C_API ZvoResult zvoKeptLightCreate(ZvoContext* context, const ZvoKeptLightInfo* info, ZvoKeptLight** light);
-ZVO_C_API void zvoKeptLightDestroy(ZvoKeptLight* light);
-ZVO_C_API ZvoResult zvoKeptLightUpdate(ZvoKeptLight* light, ZvoRecorder* recorder, const ZvoTree* tree,
-                                       ZvoEnvironment* environment, const ZvoCameraInfo* camera,
-                                       const ZvoKeptFrameInfo* info);
-ZVO_C_API ZvoResult zvoKeptLightUpdateDynamic(ZvoKeptLight* light, ZvoRecorder* recorder, ZvoDynamicTree* tree,
-                                              ZvoEnvironment* environment, const ZvoCameraInfo* camera,
-                                              const ZvoKeptFrameInfo* info);
-ZVO_C_API ZvoResult zvoKeptLightAddress(const ZvoKeptLight* light, uint64_t* address);
-ZVO_C_API ZvoResult zvoKeptLightForget(ZvoKeptLight* light);
-ZVO_C_API ZvoResult zvoKeptLightStats(ZvoKeptLight* light, ZvoKeptLightStats* stats);
-ZVO_C_API ZvoResult zvoKeptLightBytes(const ZvoKeptLight* light, uint64_t* bytes);
+ZVO_C_API ZvoResult zvoRadianceCacheCreate(ZvoContext* context, const ZvoRadianceCacheInfo* info,
+                                           ZvoRadianceCache** light);
+ZVO_C_API void zvoRadianceCacheDestroy(ZvoRadianceCache* light);
+ZVO_C_API ZvoResult zvoRadianceCacheUpdate(ZvoRadianceCache* light, ZvoRecorder* recorder, const ZvoTree* tree,
+                                           ZvoEnvironment* environment, const ZvoCameraInfo* camera,
+                                           const ZvoCachedFrameInfo* info);
+ZVO_C_API ZvoResult zvoRadianceCacheUpdateDynamic(ZvoRadianceCache* light, ZvoRecorder* recorder, ZvoDynamicTree* tree,
+                                                  ZvoEnvironment* environment, const ZvoCameraInfo* camera,
+                                                  const ZvoCachedFrameInfo* info);
+ZVO_C_API ZvoResult zvoRadianceCacheAddress(const ZvoRadianceCache* light, uint64_t* address);
+ZVO_C_API ZvoResult zvoRadianceCacheForget(ZvoRadianceCache* light);
+ZVO_C_API ZvoResult zvoRadianceCacheStats(ZvoRadianceCache* light, ZvoRadianceCacheStats* stats);
+ZVO_C_API ZvoResult zvoRadianceCacheBytes(const ZvoRadianceCache* light, uint64_t* bytes);
 
-/// As zvo::KeptPictureInfo.
-typedef struct ZvoKeptPictureInfo
+/// As zvo::CachedPictureInfo.
+typedef struct ZvoCachedPictureInfo
 {
     size_t struct_size;
     VkBool32 automatic_exposure;
     float exposure;
-} ZvoKeptPictureInfo;
+} ZvoCachedPictureInfo;
 
-#define ZVO_KEPT_PICTURE_INFO_INIT ZVO_STRUCT_INIT(ZvoKeptPictureInfo, VK_TRUE, 1)
+#define ZVO_CACHED_PICTURE_INFO_INIT ZVO_STRUCT_INIT(ZvoCachedPictureInfo, VK_TRUE, 1)
 
-ZVO_C_API ZvoResult zvoTracerTraceKept(ZvoTracer* tracer, ZvoRecorder* recorder, const ZvoTree* tree,
-                                       ZvoEnvironment* environment, ZvoKeptLight* light, const ZvoCameraInfo* camera,
-                                       const ZvoKeptPictureInfo* info, const ZvoImageTarget* color);
-ZVO_C_API ZvoResult zvoTracerTraceKeptDynamic(ZvoTracer* tracer, ZvoRecorder* recorder, ZvoDynamicTree* tree,
-                                              ZvoEnvironment* environment, ZvoKeptLight* light,
-                                              const ZvoCameraInfo* camera, const ZvoKeptPictureInfo* info,
-                                              const ZvoImageTarget* color);
+ZVO_C_API ZvoResult zvoTracerTraceCached(ZvoTracer* tracer, ZvoRecorder* recorder, const ZvoTree* tree,
+                                         ZvoEnvironment* environment, ZvoRadianceCache* light,
+                                         const ZvoCameraInfo* camera, const ZvoCachedPictureInfo* info,
+                                         const ZvoImageTarget* color);
+ZVO_C_API ZvoResult zvoTracerTraceCachedDynamic(ZvoTracer* tracer, ZvoRecorder* recorder, ZvoDynamicTree* tree,
+                                                ZvoEnvironment* environment, ZvoRadianceCache* light,
+                                                const ZvoCameraInfo* camera, const ZvoCachedPictureInfo* info,
+                                                const ZvoImageTarget* color);

@@ -7,7 +7,7 @@
 #include "zvo/dynamic_tree.h"
 #include "zvo/error.h"
 #include "zvo/image_target.h"
-#include "zvo/kept_light.h"
+#include "zvo/radiance_cache.h"
 #include "zvo/light.h"
 #include "zvo/log.h"
 #include "zvo/memory.h"

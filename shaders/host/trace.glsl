@@ -21,9 +21,9 @@
 // What zvo_Hit says: zvo_isHit(hit), zvo_isUnfinished(hit), hit.t, zvo_hitCell(hit), zvo_hitLevel(hit),
 // zvo_hitFace(hit): the axis, or zvo_kFaceInside.
 //
-// Light that is kept on the voxels (zvo::KeptLight), a zvo_KeptLightTable_ConstPtr by its address, as trees:
+// The radiance cache (zvo::RadianceCache), a zvo_RadianceCacheTable_ConstPtr by its address, as trees:
 //   vec4 zvo_irradiance(light, tree, position, normal)                light that arrives at a surface, without a ray
-//   vec4 zvo_keptRadiance(light, tree, hit, origin, direction)        light that comes from where a ray has hit
+//   vec4 zvo_cachedRadiance(light, tree, hit, origin, direction)        light that comes from where a ray has hit
 //   vec4 zvo_gatherIrradiance(light, tree, position, normal, rays, seed)     light that arrives, by rays
 //   vec3 zvo_outside(light, direction)                                light from outside of the grid
 //   float zvo_occlusion(tree, position, normal, rays, reach, seed)    the share of rays that meet nothing
@@ -59,6 +59,6 @@
 #define ZVO_TRACE_GLSL
 
 #include "trace/any_tree.glsl"
-#include "host/kept_light.glsl"
+#include "host/radiance_cache.glsl"
 
 #endif

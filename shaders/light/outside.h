@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What shaders need to know of light from outside of the grid: a map and a sun (light/environment.h). Those of hosts
-// get it by its address, too (host/kept_light.glsl).
+// get it by its address, too (host/radiance_cache.glsl).
 #ifndef ZVO_SHADERS_LIGHT_OUTSIDE_H
 #define ZVO_SHADERS_LIGHT_OUTSIDE_H
 

@@ -12,7 +12,7 @@
 #ifndef ZVO_SHADERS_RADIANCE_BRICK_GLSL
 #define ZVO_SHADERS_RADIANCE_BRICK_GLSL
 
-#include "radiance/kept_face.glsl"
+#include "radiance/cached_face.glsl"
 #include "radiance/radiance.h"
 
 const float kSumMost = 67108860.0; // steps of a sample, so that 64 fit: 2^26 - 4
@@ -21,12 +21,12 @@ const float kSumMost = 67108860.0; // steps of a sample, so that 64 fit: 2^26 - 
 // of up to 16,384 times as much fit. Brighter ones count as that. Of a brick that keeps none, 2^-14.
 float stepOfBrick(uvec2 light)
 {
-    vec3 kept = keptRadiance(light);
+    vec3 kept = cachedRadiance(light);
     bool is_dark = kept == vec3(0.0);
     return exp2(is_dark ? -14.0 : float(exponentFor(kept, 12)));
 }
 
-// Adds the light of a sample, rounded at random: thresholds as in radiance/kept_face.glsl. counts: as in BrickSum.
+// Adds the light of a sample, rounded at random: thresholds as in radiance/cached_face.glsl. counts: as in BrickSum.
 void addLight(uint index, float unit, vec3 radiance, vec3 thresholds, uint counts)
 {
     precise vec3 scaled = min(radiance / unit, vec3(kSumMost));

@@ -11,8 +11,8 @@
 #include "lib/ray.glsl"
 #include "lib/sampling.glsl"
 #include "radiance/face_table.glsl"
-#include "radiance/kept_face.glsl"
-#include "radiance/kept_faces.h"
+#include "radiance/cached_face.glsl"
+#include "radiance/cached_faces.h"
 #include "shared/trace.h"
 #include "shared/tree_table.h"
 #include "trace/any_tree.glsl"
@@ -88,10 +88,10 @@ vec3 lightAgainst(uvec3 cell, uint level, uvec3 voxel, vec3 direction)
         for (uint axis = 0u; axis < 3u; ++axis)
         {
             float component = axis == 0u ? direction.x : axis == 1u ? direction.y : direction.z;
-            KeptFace face;
+            CachedFace face;
             uint slot = findFace(known_cell >> (2u * (up - known_level)), axis + (component > 0.0 ? 3u : 0u), up, face);
-            bool found = slot != kNoFace && keptWeight(face.light) != 0u;
-            sum += found ? component * component * vec4(keptRadiance(face.light), 1.0) : vec4(0.0);
+            bool found = slot != kNoFace && cachedWeight(face.light) != 0u;
+            sum += found ? component * component * vec4(cachedRadiance(face.light), 1.0) : vec4(0.0);
         }
     return sum.w > 0.0 ? sum.rgb / sum.w : vec3(0.0);
 }

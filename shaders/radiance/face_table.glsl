@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-// The table of faces (radiance/kept_faces.h): finding them, and the light that they keep around a place.
+// The table of faces (radiance/cached_faces.h): finding them, and the light that they keep around a place.
 // Needs params.faces and params.run_count, and params.states with STATES_BINDING.
 #ifndef ZVO_SHADERS_RADIANCE_FACE_TABLE_GLSL
 #define ZVO_SHADERS_RADIANCE_FACE_TABLE_GLSL
 
 #include "lib/face.glsl"
 #include "lib/hit.glsl"
-#include "radiance/kept_face.glsl"
-#include "radiance/kept_faces.h"
+#include "radiance/cached_face.glsl"
+#include "radiance/cached_faces.h"
 
 const uint kNoFace = ~0u;
 
@@ -31,7 +31,7 @@ uint slotAfter(uint slot)
 }
 
 // The slot of a face, or of a brick, that an earlier dispatch inserted, or kNoFace. face: its contents.
-uint findFace(uvec3 cell, uint normal, uint level, out KeptFace face)
+uint findFace(uvec3 cell, uint normal, uint level, out CachedFace face)
 {
     uvec2 key = faceKey(cell, normal, level);
     uint slot = faceHome(cell, normal, level);
@@ -51,9 +51,9 @@ vec4 lightOfBrick(uvec3 cell, uint normal, bool is_asked)
     vec4 light = vec4(0.0);
     for (uint level = 1u; is_asked && level <= kBrickLevels; ++level)
     {
-        KeptFace face;
-        is_asked = findFace(cell >> (2u * level), normal, level, face) == kNoFace || keptWeight(face.light) == 0u;
-        light = is_asked ? light : vec4(keptRadiance(face.light), 1.0);
+        CachedFace face;
+        is_asked = findFace(cell >> (2u * level), normal, level, face) == kNoFace || cachedWeight(face.light) == 0u;
+        light = is_asked ? light : vec4(cachedRadiance(face.light), 1.0);
     }
     return light;
 }
@@ -62,14 +62,14 @@ vec4 lightOfBrick(uvec3 cell, uint normal, bool is_asked)
 // it, as far as they keep any; then w is more than 0, and xyz are to be divided by it. Bricks are mixed as faces are.
 // cell: of the level. place: from the cell's lower corner, in cells of the level. slot, here: the face that the place
 // is on, as findFace() gives it.
-vec4 lightBetweenFaces(uvec3 cell, uint normal, vec3 place, uint level, out uint slot, out KeptFace here)
+vec4 lightBetweenFaces(uvec3 cell, uint normal, vec3 place, uint level, out uint slot, out CachedFace here)
 {
     vec3 offset = clamp(place, 0.0, 1.0) - 0.5;
     vec4 sum = vec4(0.0);
     [[unroll]] for (uint k = 0u; k < 4u; ++k)
     {
         NearFace near = nearFace(k, normal, offset, 1);
-        KeptFace face;
+        CachedFace face;
         uint found_slot = findFace(uvec3(ivec3(cell) + near.steps) & kHitCoordinateMask, normal, level, face);
         bool found = found_slot != kNoFace;
         if (k == 0u)
@@ -77,8 +77,8 @@ vec4 lightBetweenFaces(uvec3 cell, uint normal, vec3 place, uint level, out uint
             slot = found_slot;
             here = face;
         }
-        float share = found && keptWeight(face.light) != 0u ? near.share : 0.0;
-        sum += share * vec4(keptRadiance(face.light), 1.0);
+        float share = found && cachedWeight(face.light) != 0u ? near.share : 0.0;
+        sum += share * vec4(cachedRadiance(face.light), 1.0);
     }
     return sum;
 }
@@ -87,13 +87,13 @@ vec4 lightBetweenFaces(uvec3 cell, uint normal, vec3 place, uint level, out uint
 vec4 lightBetweenFaces(uvec3 cell, uint normal, vec3 place, uint level)
 {
     uint slot;
-    KeptFace here;
+    CachedFace here;
     return lightBetweenFaces(cell, normal, place, level, slot, here);
 }
 
 #ifdef STATES_BINDING
 // The mean light of the faces that touch a face in its plane, up to four, as far as they keep any. Their light was not
-// behind a wall, since the voxel over each was empty when it arrived. is_lit: whether any keeps light.
+// behind a wall, since the voxel over each was empty when it arrived. is_lit: whether any has cached light.
 vec3 lightOfNeighbors(uvec3 cell, uint normal, out bool is_lit)
 {
     vec4 sum = vec4(0.0);
@@ -101,9 +101,9 @@ vec3 lightOfNeighbors(uvec3 cell, uint normal, out bool is_lit)
     {
         int side = (k & 1u) != 0u ? 1 : -1;
         ivec3 steps = stepInPlane(normal, (k & 2u) != 0u ? ivec2(side, 0) : ivec2(0, side));
-        KeptFace face;
+        CachedFace face;
         uint slot = findFace(uvec3(ivec3(cell) + steps) & kHitCoordinateMask, normal, 0u, face);
-        if (slot != kNoFace && keptWeight(face.light) != 0u)
+        if (slot != kNoFace && cachedWeight(face.light) != 0u)
             sum += vec4(recentRadiance(loadFaceState(slot).recent), 1.0);
     }
     is_lit = sum.w != 0.0;

@@ -22,7 +22,7 @@ const uint kNodeLevels = 0u; // no hit is a node's
 #include "radiance/face_table.glsl"
 #include "radiance/hits.glsl"
 #include "radiance/insert_face.glsl"
-#include "radiance/kept_face.glsl"
+#include "radiance/cached_face.glsl"
 #include "radiance/list_faces.glsl"
 #include "trace/surface.glsl"
 
@@ -59,7 +59,7 @@ void main()
         uint recent = 0u;
         if (slot != kNoFace)
             recent = loadFaceState(slot).recent;
-        is_lit = recent != 0u || (slot != kNoFace && keptWeight(loadFace(slot).light) != 0u);
+        is_lit = recent != 0u || (slot != kNoFace && cachedWeight(loadFace(slot).light) != 0u);
         vec3 light = recentRadiance(recent);
         if (kEnds && !is_lit)
             light = lightOfNeighbors(hitCell(hit), normal, is_lit);

@@ -5,10 +5,10 @@
 #define ZVO_SHADERS_RADIANCE_INSERT_FACE_GLSL
 
 #include "radiance/face_table.glsl"
-#include "radiance/kept_face.glsl"
-#include "radiance/kept_faces.h"
+#include "radiance/cached_face.glsl"
+#include "radiance/cached_faces.h"
 
-#define FACE_WORD(SLOT, WORD) uint_Ptr(uint64_t(params.faces) + uint64_t(SLOT) * kKeptFaceBytes).data[WORD]
+#define FACE_WORD(SLOT, WORD) uint_Ptr(uint64_t(params.faces) + uint64_t(SLOT) * kCachedFaceBytes).data[WORD]
 
 // The slot of a face, or of a brick, which is taken if it has none; kNoFace if there is no place. Of both words of a
 // key, which are set one after the other, each is written at most once: lib/bricks.glsl says why that suffices.

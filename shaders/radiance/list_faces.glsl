@@ -7,7 +7,7 @@
 #include "path/lists.glsl"
 #include "radiance/face_table.glsl"
 #include "radiance/insert_face.glsl"
-#include "radiance/kept_face.glsl"
+#include "radiance/cached_face.glsl"
 #include "radiance/radiance.h"
 
 // Puts a brick into the table and into the list of its level, unless it is there. bricks: the lists, of `batch` bricks

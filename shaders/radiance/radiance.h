@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Light that is kept on the faces of voxels: what its kernels share with the host.
+// The radiance cache: what its kernels share with the host.
 //
 // A face keeps the light that arrives at it, irradiance over pi, as two means over samples: what it reflects is its
 // albedo times that. Pictures show a mean of all samples. Other faces receive one of the last samples: what they have
@@ -21,36 +21,36 @@
 //
 // A frame takes so many faces as its budget has rays, of those that were hit since the frame before. A sample of a face
 // is a path of one bounce from a random point of it: a ray in a random direction, which brings emission, light from
-// outside of the grid, or what the face that it hits reflects of the light that is kept there; and a light that is
+// outside of the grid, or what the face that it hits reflects of the cached light there; and a light that is
 // chosen, with a shadow ray to it (path/path.h). So light of one more bounce arrives with each frame.
 //
 // A face that has had no sample keeps no light. A path that hits one takes the light of the faces beside it, in the
 // same plane, if they have had any; else it goes on by a second ray and a second light, and ends there. If it took no
 // light, samples would be too dark until all faces have had some, and means would keep that for long.
 //
-//   radiance/want      faces that the camera sees: into the table, and into the frame's list
-//   radiance/tally     counts the faces of the list by their rank; its last threads find the rank that the budget ends
-//   radiance/take      lists the faces of a lower rank
+//   radiance/request      faces that the camera sees: into the table, and into the frame's list
+//   radiance/count     counts the faces of the list by their rank; its last threads find the rank that the budget ends
+//   radiance/select      lists the faces of a lower rank
 //   radiance/begin     a path from each of them; the brick of level 1 around it: into table and list
 //   radiance/surround  the bricks of a level around those of the one before that are listed: into table and list
 //     path/map_light, path/voxel_light, trace/rays, path/connect      light that was chosen
-//     trace/rays, radiance/gather            what the paths hit, and the light that is kept there
+//     trace/rays, radiance/gather            what the paths hit, and the cached light there
 //     path/miss, path/emitter                light that they have met
 //   radiance/extend    paths that have hit a face without light; for their second rays, the same passes again
-//   radiance/apply     adds the samples to the means of faces, and to the sums of bricks of level 1
-//   radiance/fold      adds the sums to the means of bricks of a level, and to the sums of the next level
-//   radiance/purge     into another table, without faces that no ray has hit for long; only while something moves
+//   radiance/update     adds the samples to the means of faces, and to the sums of bricks of level 1
+//   radiance/update_bricks      adds the sums to the means of bricks of a level, and to the sums of the next level
+//   radiance/evict     into another table, without faces that no ray has hit for long; only while something moves
 //   radiance/view, radiance/direct         what the camera sees of it, and of lamps and the sky
 //   radiance/cones     in place of what it reflects in radiance/view: light through a cone, once for each of six
 //
-// Kernels read what the frame before has kept; only radiance/apply and radiance/fold write, and sums of samples are
-// integers. So what comes out does not depend on the order of threads, though the places of faces in the table, and in
-// lists, do.
+// Kernels read what the frame before has kept; only radiance/update and radiance/update_bricks write, and sums of
+// samples are integers. So what comes out does not depend on the order of threads, though the places of faces in the
+// table, and in lists, do.
 #ifndef ZVO_SHADERS_RADIANCE_RADIANCE_H
 #define ZVO_SHADERS_RADIANCE_RADIANCE_H
 
 #include "path/path.h"
-#include "radiance/kept_faces.h"
+#include "radiance/cached_faces.h"
 
 GPU_NAMESPACE_BEGIN
 
@@ -60,9 +60,9 @@ const uint kRadianceGroup = 64u; // threads of a workgroup
 ///
 ///     mark    the last frame in which a ray has hit the face, modulo 2^15, 15 | the last one in which a ray of the
 ///             face has hit what moves, modulo 2^14 - 1, plus 1, or 0: none, 14 | kFaceMoved | kFaceSeen | kFaceListed
-///     recent  red 8 | green 8 | blue 8 | exponent 8 (radiance/kept_face.glsl): a mean of the last samples
+///     recent  red 8 | green 8 | blue 8 | exponent 8 (radiance/cached_face.glsl): a mean of the last samples
 ///             of a brick: its index in BrickSums, while it is listed
-///     own     as KeptFace::light, of the face's samples alone
+///     own     as CachedFace::light, of the face's samples alone
 ///             of a brick: BrickSpread, and the number of samples that it is of (radiance/brick.glsl)
 struct FaceState
 {
@@ -91,7 +91,7 @@ const uint kBrickFaces = 4u;   // what means of bricks count in samples, over wh
 const float kBrickSamplesMax = 128.0;
 const float kBrickShareEnds = 16.0;
 
-const uint kKeptWeightMax = 1023u;
+const uint kCachedWeightMax = 1023u;
 const uint kRecentSamples = 16u; // that FaceState::recent counts
 
 // How many samples both means count of a face whose rays have hit what moves, for so many frames: once, or often.
@@ -141,9 +141,9 @@ GPU_BUFFER(RadianceCounters, 4);
 
 const uint kCountersOfFrame = 2u; // words before those that a frame clears
 
-struct RadianceWantParams // push constants of radiance/want: a workgroup for each live tile
+struct RadianceRequestParams // push constants of radiance/request: a workgroup for each live tile
 {
-    GPU_PTR(KeptFace) faces;
+    GPU_PTR(CachedFace) faces;
     GPU_PTR(FaceState) states;
     GPU_PTR(RadianceCounters) counters;
     GPU_PTR(uint) wanted; // [RadianceLists::wanted] slots
@@ -158,14 +158,14 @@ struct RadianceWantParams // push constants of radiance/want: a workgroup for ea
     uint run_count;
     uint frame; // some pixels of each 2x2 take part, in turns
 };
-#define RADIANCE_WANT_CONSTANTS(CONSTANT)                                                                              \
+#define RADIANCE_REQUEST_CONSTANTS(CONSTANT)                                                                           \
     CONSTANT(0, bool, orthographic, kOrthographic, false)                                                              \
     CONSTANT(1, uint, turns, kTurns, 1u) /* pixels of each 2x2 that take part: 1 to 4 */
-GPU_KERNEL(radiance, want, Want, RadianceWantParams, RADIANCE_WANT_CONSTANTS)
+GPU_KERNEL(radiance, request, Request, RadianceRequestParams, RADIANCE_REQUEST_CONSTANTS)
 
-struct RadianceTallyParams // push constants of radiance/tally: a thread a listed face
+struct RadianceCountParams // push constants of radiance/count: a thread a listed face
 {
-    GPU_CONST_PTR(KeptFace) faces;
+    GPU_CONST_PTR(CachedFace) faces;
     GPU_CONST_PTR(FaceState) states;
     GPU_CONST_PTR(uint) wanted;
     GPU_PTR(RadianceCounters) counters;
@@ -173,11 +173,11 @@ struct RadianceTallyParams // push constants of radiance/tally: a thread a liste
     uint frame;
     uint budget; // the most faces that a frame takes
 };
-GPU_KERNEL(radiance, tally, Tally, RadianceTallyParams, GPU_NO_CONSTANTS)
+GPU_KERNEL(radiance, count, Count, RadianceCountParams, GPU_NO_CONSTANTS)
 
-struct RadianceTakeParams // push constants of radiance/take: a thread a listed face
+struct RadianceSelectParams // push constants of radiance/select: a thread a listed face
 {
-    GPU_CONST_PTR(KeptFace) faces;
+    GPU_CONST_PTR(CachedFace) faces;
     GPU_PTR(FaceState) states;
     GPU_CONST_PTR(uint) wanted;
     GPU_CONST_PTR(RadianceCounters) counters;
@@ -185,11 +185,11 @@ struct RadianceTakeParams // push constants of radiance/take: a thread a listed 
     GPU_PTR(uint) numbers; // as in RadianceBeginParams
     uint frame;
 };
-GPU_KERNEL(radiance, take, Take, RadianceTakeParams, GPU_NO_CONSTANTS)
+GPU_KERNEL(radiance, select, Select, RadianceSelectParams, GPU_NO_CONSTANTS)
 
 struct RadianceBeginParams // push constants of radiance/begin: a thread a path
 {
-    GPU_PTR(KeptFace) faces;
+    GPU_PTR(CachedFace) faces;
     GPU_PTR(FaceState) states;
     GPU_PTR(RadianceCounters) counters;
     GPU_CONST_PTR(vec2) gives;            // [kNormals] as Environment::gives
@@ -212,7 +212,7 @@ GPU_KERNEL(radiance, begin, Begin, RadianceBeginParams, RADIANCE_BEGIN_CONSTANTS
 
 struct RadianceSurroundParams // push constants of radiance/surround: a thread a listed brick of a level
 {
-    GPU_PTR(KeptFace) faces;
+    GPU_PTR(CachedFace) faces;
     GPU_PTR(FaceState) states;
     GPU_PTR(RadianceCounters) counters;
     GPU_PTR(DispatchArgs) lists;
@@ -225,10 +225,10 @@ GPU_KERNEL(radiance, surround, Surround, RadianceSurroundParams, GPU_NO_CONSTANT
 
 struct RadianceGatherParams // push constants of radiance/gather: a thread a path
 {
-    GPU_PTR(KeptFace) faces;
+    GPU_PTR(CachedFace) faces;
     GPU_PTR(FaceState) states;
     GPU_PTR(RadianceCounters) counters;
-    GPU_PTR(uint) wanted; // of the next frame, as in RadianceWantParams
+    GPU_PTR(uint) wanted; // of the next frame, as in RadianceRequestParams
     GPU_PTR(DispatchArgs) lists;
     GPU_PTR(uint) numbers;
     GPU_CONST_PTR(Attribute) attributes; // of voxels, in the format of kFormat
@@ -251,7 +251,7 @@ GPU_KERNEL(radiance, gather, Gather, RadianceGatherParams, RADIANCE_GATHER_CONST
 
 struct RadianceExtendParams // push constants of radiance/extend: a thread a path that has hit a face without light
 {
-    GPU_CONST_PTR(KeptFace) faces;
+    GPU_CONST_PTR(CachedFace) faces;
     GPU_CONST_PTR(FaceState) states;
     GPU_CONST_PTR(Attribute) attributes; // of voxels, in the format of kFormat
     GPU_CONST_PTR(Hit) hits;
@@ -275,9 +275,9 @@ struct RadianceExtendParams // push constants of radiance/extend: a thread a pat
     CONSTANT(2, bool, emission, kEmission, false)           /* there are emissive voxels */
 GPU_KERNEL(radiance, extend, Extend, RadianceExtendParams, RADIANCE_EXTEND_CONSTANTS)
 
-struct RadianceApplyParams // push constants of radiance/apply: a thread a path
+struct RadianceUpdateParams // push constants of radiance/update: a thread a path
 {
-    GPU_PTR(KeptFace) faces;
+    GPU_PTR(CachedFace) faces;
     GPU_PTR(FaceState) states;
     GPU_CONST_PTR(uint) numbers;
     GPU_CONST_PTR(vec3) radiance;
@@ -286,15 +286,15 @@ struct RadianceApplyParams // push constants of radiance/apply: a thread a path
     uint batch;
     uint run_count;
     uint frame;
-    uint window;         // the most samples that the mean's weight counts, at least 1 and at most kKeptWeightMax
+    uint window;         // the most samples that the mean's weight counts, at least 1 and at most kCachedWeightMax
     uint touched_window; // the most samples of a face one of whose rays has hit what moves
     uint moved_window;   // the most samples where what moves matters
 };
-GPU_KERNEL(radiance, apply, Apply, RadianceApplyParams, GPU_NO_CONSTANTS)
+GPU_KERNEL(radiance, update, Update, RadianceUpdateParams, GPU_NO_CONSTANTS)
 
-struct RadianceFoldParams // push constants of radiance/fold: a thread a listed brick of a level
+struct RadianceUpdateBricksParams // push constants of radiance/update_bricks: a thread a listed brick of a level
 {
-    GPU_PTR(KeptFace) faces;
+    GPU_PTR(CachedFace) faces;
     GPU_PTR(FaceState) states;
     GPU_CONST_PTR(uint) bricks;
     GPU_PTR(DispatchArgs) lists;
@@ -306,24 +306,24 @@ struct RadianceFoldParams // push constants of radiance/fold: a thread a listed 
     uint window;       // the most samples that means count
     uint moved_window; // the most samples where something moves
 };
-GPU_KERNEL(radiance, fold, Fold, RadianceFoldParams, GPU_NO_CONSTANTS)
+GPU_KERNEL(radiance, update_bricks, UpdateBricks, RadianceUpdateBricksParams, GPU_NO_CONSTANTS)
 
-struct RadiancePurgeParams // push constants of radiance/purge: a thread a slot of the old table
+struct RadianceEvictParams // push constants of radiance/evict: a thread a slot of the old table
 {
-    GPU_PTR(KeptFace) faces; // of the new table, empty, like the next two
+    GPU_PTR(CachedFace) faces; // of the new table, empty, like the next two
     GPU_PTR(FaceState) states;
     GPU_PTR(RadianceCounters) counters; // cleared
-    GPU_CONST_PTR(KeptFace) old_faces;
+    GPU_CONST_PTR(CachedFace) old_faces;
     GPU_CONST_PTR(FaceState) old_states;
     uint run_count; // of both tables
     uint frame;
     uint age_max; // frames; faces that no ray has hit for longer are left out
 };
-GPU_KERNEL(radiance, purge, Purge, RadiancePurgeParams, GPU_NO_CONSTANTS)
+GPU_KERNEL(radiance, evict, Evict, RadianceEvictParams, GPU_NO_CONSTANTS)
 
 struct RadianceViewParams // push constants of radiance/view: a thread a pixel, in the order of path/path.h
 {
-    GPU_CONST_PTR(KeptFace) faces;
+    GPU_CONST_PTR(CachedFace) faces;
     GPU_CONST_PTR(Hit) hits;
     GPU_CONST_PTR(float) starts;         // of tiles
     GPU_CONST_PTR(Attribute) attributes; // of voxels, in the format of kFormat
@@ -348,7 +348,7 @@ GPU_KERNEL(radiance, view, View, RadianceViewParams, RADIANCE_VIEW_CONSTANTS)
 struct RadianceConesParams // push constants of radiance/cones: a thread a pixel, in the order of path/path.h
 {
     GPU_CONST_PTR(TreeTable) tree;
-    GPU_CONST_PTR(KeptFace) faces;
+    GPU_CONST_PTR(CachedFace) faces;
     GPU_CONST_PTR(Environment) environment;
     GPU_CONST_PTR(Hit) hits;
     GPU_CONST_PTR(float) starts; // of tiles

@@ -4,17 +4,17 @@
 #define ZVO_SHADERS_RADIANCE_RANK_GLSL
 
 #include "lib/sampling.glsl"
-#include "radiance/kept_face.glsl"
+#include "radiance/cached_face.glsl"
 #include "radiance/radiance.h"
 
 const float kSeenShare = 8.0;   // a face that the camera sees is taken so much more often than others
 const float kFreshShare = 64.0; // one without samples, than one with as many or more
 
 // The rank of a face in a frame: it does not depend on the slot.
-uint rankOfFace(KeptFace face, uint mark, uint frame)
+uint rankOfFace(CachedFace face, uint mark, uint frame)
 {
     uint random = hashPair(hashPair(face.key.x, face.key.y), frame) >> 9;
-    float share = max(kFreshShare / float(keptWeight(face.light) + 1u), 1.0) *
+    float share = max(kFreshShare / float(cachedWeight(face.light) + 1u), 1.0) *
                   ((mark & kFaceSeen) != 0u ? kSeenShare : 1.0);
     precise float place = (float(random) + 0.5) / (8388608.0 * share);
     return clamp(floatBitsToUint(place) >> kRankShift, kRankFirst, kRankFirst + kFaceRanks - 1u) - kRankFirst;

@@ -11,7 +11,7 @@ layout(local_size_x = kRadianceGroup) in;
 
 #define STATES_BINDING 1
 #include "path/lists.glsl"
-#include "radiance/kept_face.glsl"
+#include "radiance/cached_face.glsl"
 #include "radiance/list_faces.glsl"
 
 void main()

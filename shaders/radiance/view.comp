@@ -1,6 +1,6 @@
 #version 460
 // SPDX-License-Identifier: MIT
-// Adds the light that the camera sees reflected to each pixel: what is kept at its hit, between four faces. Pixels that
+// Adds the light that the camera sees reflected to each pixel: what is cached at its hit, between four faces. Pixels that
 // see a lamp, or nothing, are listed.
 #extension GL_GOOGLE_include_directive : require
 #include "radiance/radiance.h"

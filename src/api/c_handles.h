@@ -22,7 +22,7 @@ ZVO_HANDLE(ZvoTree, Tree);
 ZVO_HANDLE(ZvoTreeJob, TreeJob);
 ZVO_HANDLE(ZvoEnvironment, Environment);
 ZVO_HANDLE(ZvoTracer, Tracer);
-ZVO_HANDLE(ZvoKeptLight, KeptLight);
+ZVO_HANDLE(ZvoRadianceCache, RadianceCache);
 
 #undef ZVO_HANDLE
 

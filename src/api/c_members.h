@@ -111,10 +111,12 @@ ZVO_C_STRUCT(ZvoPathInfo, PathInfo, ZVO_PATH_INFO_INIT,
 ZVO_C_STRUCT(ZvoImageTarget, ImageTarget, ZVO_IMAGE_TARGET_INIT,
              (it.image, it.format, it.layout, it.offset, it.mip_level, it.array_layer, it.extent), ());
 ZVO_C_STRUCT(ZvoDepthTarget, DepthTarget, ZVO_DEPTH_TARGET_INIT, (it.view_projection, it.miss), (it.image));
-ZVO_C_STRUCT(ZvoKeptLightInfo, KeptLightInfo, ZVO_KEPT_LIGHT_INFO_INIT, (it.faces, it.width, it.height), ());
-ZVO_C_STRUCT(ZvoKeptFrameInfo, KeptFrameInfo, ZVO_KEPT_FRAME_INFO_INIT, (it.rays, it.seed), ());
-ZVO_C_STRUCT(ZvoKeptPictureInfo, KeptPictureInfo, ZVO_KEPT_PICTURE_INFO_INIT, (it.automatic_exposure, it.exposure), ());
-ZVO_C_STRUCT(ZvoKeptLightStats, KeptLightStats, ZVO_KEPT_LIGHT_STATS_INIT, (it.faces, it.refused), ());
+ZVO_C_STRUCT(ZvoRadianceCacheInfo, RadianceCacheInfo, ZVO_RADIANCE_CACHE_INFO_INIT, (it.faces, it.width, it.height),
+             ());
+ZVO_C_STRUCT(ZvoCachedFrameInfo, CachedFrameInfo, ZVO_CACHED_FRAME_INFO_INIT, (it.rays, it.seed), ());
+ZVO_C_STRUCT(ZvoCachedPictureInfo, CachedPictureInfo, ZVO_CACHED_PICTURE_INFO_INIT,
+             (it.automatic_exposure, it.exposure), ());
+ZVO_C_STRUCT(ZvoRadianceCacheStats, RadianceCacheStats, ZVO_RADIANCE_CACHE_STATS_INIT, (it.faces, it.refused), ());
 
 #undef ZVO_C_STRUCT
 

@@ -4,7 +4,7 @@
 #include "api/camera.h"
 #include "api/convert.h"
 #include "core/path/path_tracer.h"
-#include "core/radiance/radiance_cache.h"
+#include "core/radiance/device_radiance_cache.h"
 #include "core/trace/trace.h"
 
 #include <fmt/format.h>
@@ -28,7 +28,7 @@ constexpr std::uint64_t kMapTexelsMax = std::uint64_t{1} << 25;
 
 constexpr std::uint32_t kSamplesMax = 1024; // of a call, so that a command buffer stays of a sensible size
 
-constexpr std::uint64_t kKeptFacesMax = std::uint64_t{1} << 29; // of fewer than 2^30 slots
+constexpr std::uint64_t kCachedFacesMax = std::uint64_t{1} << 29; // of fewer than 2^30 slots
 
 // The irradiance over pi of a sun whose radiance is far below the largest float.
 constexpr double kSunMax = 1e30;
@@ -190,24 +190,24 @@ const PathInfo& checked(const PathInfo& info)
     return info;
 }
 
-const KeptPictureInfo& checked(const KeptPictureInfo& info)
+const CachedPictureInfo& checked(const CachedPictureInfo& info)
 {
-    checkedAmount(info.exposure, "KeptPictureInfo::exposure");
+    checkedAmount(info.exposure, "CachedPictureInfo::exposure");
     return info;
 }
 
-const KeptLightInfo& checked(const KeptLightInfo& info)
+const RadianceCacheInfo& checked(const RadianceCacheInfo& info)
 {
     checkedEdge(info.width);
     checkedEdge(info.height);
-    requireAtMost(info.faces, kKeptFacesMax, "KeptLightInfo::faces");
+    requireAtMost(info.faces, kCachedFacesMax, "RadianceCacheInfo::faces");
     return info;
 }
 
-const KeptFrameInfo& checked(const KeptFrameInfo& info)
+const CachedFrameInfo& checked(const CachedFrameInfo& info)
 {
-    requireOne(info.rays, "KeptFrameInfo::rays");
-    requireAtMost(info.rays, kRadianceFacesMax, "KeptFrameInfo::rays");
+    requireOne(info.rays, "CachedFrameInfo::rays");
+    requireAtMost(info.rays, kRadianceFacesMax, "CachedFrameInfo::rays");
     return info;
 }
 

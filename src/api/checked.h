@@ -6,8 +6,8 @@
 #include "core/base/grid.h"
 #include "zvo/dynamic_tree.h"
 #include "zvo/error.h"
-#include "zvo/kept_light.h"
 #include "zvo/light.h"
+#include "zvo/radiance_cache.h"
 #include "zvo/tracer.h"
 #include "zvo/tree.h"
 #include "zvo/types.h"
@@ -45,10 +45,10 @@ const DynamicTreeInfo& checked(const DynamicTreeInfo& info);
 const BrushInfo& checked(const BrushInfo& info);
 const TraceInfo& checked(const TraceInfo& info);
 const PathInfo& checked(const PathInfo& info);
-const KeptPictureInfo& checked(const KeptPictureInfo& info);
+const CachedPictureInfo& checked(const CachedPictureInfo& info);
 const SunInfo& checked(const SunInfo& info);
-const KeptLightInfo& checked(const KeptLightInfo& info);
-const KeptFrameInfo& checked(const KeptFrameInfo& info);
+const RadianceCacheInfo& checked(const RadianceCacheInfo& info);
+const CachedFrameInfo& checked(const CachedFrameInfo& info);
 
 /// Looks at every texel.
 const EnvironmentMapInfo& checked(const EnvironmentMapInfo& map);

@@ -6,7 +6,7 @@
 #include "api/convert.h"
 #include "api/dynamic_tree_impl.h"
 #include "api/environment_impl.h"
-#include "api/kept_light_impl.h"
+#include "api/radiance_cache_impl.h"
 #include "api/tree_impl.h"
 #include "core/frame/frame_renderer.h"
 #include "core/present/image_target.h"
@@ -52,10 +52,10 @@ FrameOptions optionsOf(const PathInfo& info)
     return options;
 }
 
-FrameOptions optionsOf(const KeptPictureInfo& info)
+FrameOptions optionsOf(const CachedPictureInfo& info)
 {
     FrameOptions options;
-    options.integrator = Integrator::Cached;
+    options.integrator = Integrator::Cache;
     options.exposure = {checked(info).automatic_exposure, info.exposure};
     return options;
 }
@@ -151,11 +151,11 @@ struct ZVO_LOCAL Tracer::Impl
     }
 
     template <typename AnyTree>
-    void traceKept(Recorder& recorder, AnyTree& any_tree, Environment& any_environment, KeptLight& any_light,
-                   const CameraInfo& camera_info, const KeptPictureInfo& info, const ImageTarget& color)
+    void traceCached(Recorder& recorder, AnyTree& any_tree, Environment& any_environment, RadianceCache& any_light,
+                     const CameraInfo& camera_info, const CachedPictureInfo& info, const ImageTarget& color)
     {
         Environment::Impl& environment = usable(any_environment);
-        KeptLight::Impl& light = usable(any_light);
+        RadianceCache::Impl& light = usable(any_light);
         requireSame(context, recorder.impl().context, environment.context, light.context);
         const DeviceTree& tree = shownIn(recorder.impl(), any_tree).tree;
         requireColor(color);
@@ -215,7 +215,7 @@ struct ZVO_LOCAL Tracer::Impl
 
     Context::Impl& context;
     std::unique_ptr<FrameRenderer> renderer;
-    std::shared_ptr<FrameState> frame = nullptr;      // of the last picture of trace() or traceKept()
+    std::shared_ptr<FrameState> frame = nullptr;      // of the last picture of trace() or traceCached()
     std::shared_ptr<FrameState> path_frame = nullptr; // of the last picture of tracePaths()
     std::uint32_t sample_count = 0;                   // of the picture that it has recorded; 0: none
     vk::BufferOf<float> depths = {};                  // empty until depth is requested
@@ -254,16 +254,16 @@ void Tracer::tracePaths(Recorder& recorder, DynamicTree& tree, Environment& envi
     contentOf(m_impl.get(), "tracer").tracePaths(recorder, tree, environment, camera, info, color);
 }
 
-void Tracer::traceKept(Recorder& recorder, const Tree& tree, Environment& environment, KeptLight& light,
-                       const CameraInfo& camera, const KeptPictureInfo& info, const ImageTarget& color)
+void Tracer::traceCached(Recorder& recorder, const Tree& tree, Environment& environment, RadianceCache& light,
+                         const CameraInfo& camera, const CachedPictureInfo& info, const ImageTarget& color)
 {
-    contentOf(m_impl.get(), "tracer").traceKept(recorder, tree, environment, light, camera, info, color);
+    contentOf(m_impl.get(), "tracer").traceCached(recorder, tree, environment, light, camera, info, color);
 }
 
-void Tracer::traceKept(Recorder& recorder, DynamicTree& tree, Environment& environment, KeptLight& light,
-                       const CameraInfo& camera, const KeptPictureInfo& info, const ImageTarget& color)
+void Tracer::traceCached(Recorder& recorder, DynamicTree& tree, Environment& environment, RadianceCache& light,
+                         const CameraInfo& camera, const CachedPictureInfo& info, const ImageTarget& color)
 {
-    contentOf(m_impl.get(), "tracer").traceKept(recorder, tree, environment, light, camera, info, color);
+    contentOf(m_impl.get(), "tracer").traceCached(recorder, tree, environment, light, camera, info, color);
 }
 
 std::uint32_t Tracer::sampleCount() const

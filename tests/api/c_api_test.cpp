@@ -314,7 +314,7 @@ TEST(CApi, FeaturesArePatchedOrWhatStandsInTheWayIsSaid)
     EXPECT_EQ(context, nullptr);
 }
 
-TEST(CApi, KeptLightIsThatOfTheCppInterface)
+TEST(CApi, RadianceCacheIsThatOfTheCppInterface)
 {
     test::CEmbeddingHost host;
     ZvoModel* const model = host.uploadBox();
@@ -326,25 +326,25 @@ TEST(CApi, KeptLightIsThatOfTheCppInterface)
     const double eye[3] = {22, 17, 25};
     const double target[3] = {5, 5, 5};
     ASSERT_EQ(zvoCameraLookAt(eye, target, 0.6, &camera), ZVO_OK);
-    ZvoKeptLightInfo info = ZVO_KEPT_LIGHT_INFO_INIT;
+    ZvoRadianceCacheInfo info = ZVO_RADIANCE_CACHE_INFO_INIT;
     info.width = 40;
     info.height = 30;
-    ZvoKeptLight* light = nullptr;
-    ASSERT_EQ(zvoKeptLightCreate(host.context, &info, &light), ZVO_OK);
-    ZvoKeptFrameInfo frame = ZVO_KEPT_FRAME_INFO_INIT;
+    ZvoRadianceCache* light = nullptr;
+    ASSERT_EQ(zvoRadianceCacheCreate(host.context, &info, &light), ZVO_OK);
+    ZvoCachedFrameInfo frame = ZVO_CACHED_FRAME_INFO_INIT;
     const auto faceCount = [&]
     {
-        ZvoKeptLightStats stats = ZVO_KEPT_LIGHT_STATS_INIT;
-        EXPECT_EQ(zvoKeptLightStats(light, &stats), ZVO_OK);
+        ZvoRadianceCacheStats stats = ZVO_RADIANCE_CACHE_STATS_INIT;
+        EXPECT_EQ(zvoRadianceCacheStats(light, &stats), ZVO_OK);
         return stats.faces;
     };
     host.frame(
         [&](ZvoRecorder* recorder)
         {
             EXPECT_EQ(zvoEnvironmentCreate(recorder, nullptr, &environment), ZVO_OK);
-            EXPECT_EQ(zvoKeptLightUpdate(light, recorder, tree, environment, &camera, &frame), ZVO_OK);
+            EXPECT_EQ(zvoRadianceCacheUpdate(light, recorder, tree, environment, &camera, &frame), ZVO_OK);
             frame.rays = 0;
-            EXPECT_EQ(zvoKeptLightUpdate(light, recorder, tree, environment, &camera, &frame), ZVO_ERROR_USAGE);
+            EXPECT_EQ(zvoRadianceCacheUpdate(light, recorder, tree, environment, &camera, &frame), ZVO_ERROR_USAGE);
             frame.rays = 4000;
         });
     const std::uint64_t still = faceCount();
@@ -352,41 +352,41 @@ TEST(CApi, KeptLightIsThatOfTheCppInterface)
     std::uint64_t address = 0;
     std::uint64_t same_address = 0;
     std::uint64_t bytes = 0;
-    EXPECT_EQ(zvoKeptLightAddress(light, &address), ZVO_OK);
+    EXPECT_EQ(zvoRadianceCacheAddress(light, &address), ZVO_OK);
     EXPECT_NE(address, 0U);
-    EXPECT_EQ(zvoKeptLightBytes(light, &bytes), ZVO_OK);
+    EXPECT_EQ(zvoRadianceCacheBytes(light, &bytes), ZVO_OK);
     EXPECT_GT(bytes, 36 * still);
-    EXPECT_EQ(zvoKeptLightForget(light), ZVO_OK);
+    EXPECT_EQ(zvoRadianceCacheForget(light), ZVO_OK);
     ZvoDynamicTree* dynamic = nullptr;
     const ZvoDynamicTreeInfo dynamic_info = ZVO_DYNAMIC_TREE_INFO_INIT;
     host.frame(
         [&](ZvoRecorder* recorder)
         {
             EXPECT_EQ(zvoDynamicTreeCreate(recorder, tree, &dynamic_info, &dynamic), ZVO_OK);
-            EXPECT_EQ(zvoKeptLightUpdateDynamic(light, recorder, dynamic, environment, &camera, &frame), ZVO_OK);
+            EXPECT_EQ(zvoRadianceCacheUpdateDynamic(light, recorder, dynamic, environment, &camera, &frame), ZVO_OK);
         });
     EXPECT_EQ(faceCount(), still) << "the same faces of the same voxels";
     ZvoTracer* tracer = nullptr;
-    const ZvoKeptPictureInfo picture = ZVO_KEPT_PICTURE_INFO_INIT;
+    const ZvoCachedPictureInfo picture = ZVO_CACHED_PICTURE_INFO_INIT;
     const ZvoImageTarget color = host.target();
     ASSERT_EQ(zvoTracerCreate(host.context, host.kWidth, host.kHeight, VK_FORMAT_R8G8B8A8_UNORM, &tracer), ZVO_OK);
     host.frame(
         [&](ZvoRecorder* recorder)
         {
             host.beginImage();
-            EXPECT_EQ(zvoKeptLightUpdateDynamic(light, recorder, dynamic, environment, &camera, &frame), ZVO_OK);
+            EXPECT_EQ(zvoRadianceCacheUpdateDynamic(light, recorder, dynamic, environment, &camera, &frame), ZVO_OK);
             EXPECT_EQ(
-                zvoTracerTraceKeptDynamic(tracer, recorder, dynamic, environment, light, &camera, &picture, &color),
+                zvoTracerTraceCachedDynamic(tracer, recorder, dynamic, environment, light, &camera, &picture, &color),
                 ZVO_OK);
-            EXPECT_EQ(zvoKeptLightForget(light), ZVO_OK);
+            EXPECT_EQ(zvoRadianceCacheForget(light), ZVO_OK);
             EXPECT_EQ(
-                zvoTracerTraceKeptDynamic(tracer, recorder, dynamic, environment, light, &camera, &picture, &color),
+                zvoTracerTraceCachedDynamic(tracer, recorder, dynamic, environment, light, &camera, &picture, &color),
                 ZVO_ERROR_USAGE);
         });
     zvoTracerDestroy(tracer);
-    EXPECT_EQ(zvoKeptLightAddress(light, &same_address), ZVO_OK);
+    EXPECT_EQ(zvoRadianceCacheAddress(light, &same_address), ZVO_OK);
     EXPECT_EQ(same_address, address);
-    zvoKeptLightDestroy(light);
+    zvoRadianceCacheDestroy(light);
     zvoDynamicTreeDestroy(dynamic);
     zvoEnvironmentDestroy(environment);
     zvoModelDestroy(model);

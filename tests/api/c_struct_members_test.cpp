@@ -27,11 +27,11 @@ template <typename... Structs> struct List
 using Inputs = List<ZvoGrid, ZvoOptionalFeatures, ZvoContextInfo, ZvoTextureInfo, ZvoMaterialInfo, ZvoMeshInfo,
                     ZvoInstanceInfo, ZvoModelInfo, ZvoTreeBuildInfo, ZvoDynamicTreeInfo, ZvoBrushInfo, ZvoSunInfo,
                     ZvoEnvironmentMapInfo, ZvoCameraInfo, ZvoTraceInfo, ZvoPathInfo, ZvoImageTarget, ZvoDepthTarget,
-                    ZvoKeptLightInfo, ZvoKeptFrameInfo, ZvoKeptPictureInfo>;
+                    ZvoRadianceCacheInfo, ZvoCachedFrameInfo, ZvoCachedPictureInfo>;
 
 // Structs that zvo fills, but those with texts.
 using Outputs =
-    List<ZvoGrid, ZvoCameraRays, ZvoMemoryUse, ZvoTreeInfo, ZvoUpdateStats, ZvoCameraInfo, ZvoKeptLightStats>;
+    List<ZvoGrid, ZvoCameraRays, ZvoMemoryUse, ZvoTreeInfo, ZvoUpdateStats, ZvoCameraInfo, ZvoRadianceCacheStats>;
 
 template <typename Struct, typename Cpp> void expectSameMembers(const Cpp& cpp, const Struct& c)
 {

@@ -135,7 +135,7 @@ TEST(CStructs, PointersThatAreNullAreRefused)
     ZvoTreeBuildInfo build_info = ZVO_TREE_BUILD_INFO_INIT;
     build_info.grid = {{-2, -2, -2}, 1, 4};
     const ZvoDynamicTreeInfo dynamic_info = ZVO_DYNAMIC_TREE_INFO_INIT;
-    const ZvoKeptLightInfo light_info = ZVO_KEPT_LIGHT_INFO_INIT;
+    const ZvoRadianceCacheInfo light_info = ZVO_RADIANCE_CACHE_INFO_INIT;
     VkDeviceCreateInfo create_info{};
     ZvoModel* const model = host.uploadBox();
     ZvoTree* const taken = host.build(model, build_info);
@@ -154,7 +154,7 @@ TEST(CStructs, PointersThatAreNullAreRefused)
     ASSERT_EQ(zvoFeatureStorageCreate(&handle<ZvoFeatureStorage>()), ZVO_OK);
     ASSERT_EQ(zvoTreeBuildCreate(host.context, model, &build_info, &handle<ZvoTreeJob>()), ZVO_OK);
     ASSERT_EQ(zvoTracerCreate(host.context, 8, 8, VK_FORMAT_R8G8B8A8_UNORM, &handle<ZvoTracer>()), ZVO_OK);
-    ASSERT_EQ(zvoKeptLightCreate(host.context, &light_info, &handle<ZvoKeptLight>()), ZVO_OK);
+    ASSERT_EQ(zvoRadianceCacheCreate(host.context, &light_info, &handle<ZvoRadianceCache>()), ZVO_OK);
     host.frame(
         [&](ZvoRecorder* recorder)
         {
@@ -197,11 +197,11 @@ TEST(CStructs, PointersThatAreNullAreRefused)
     REFUSES_NULLS(zvoTracerSampleCount);
     REFUSES_NULLS(zvoTracerForgetSamples);
     REFUSES_NULLS(zvoEnvironmentSetSun);
-    REFUSES_NULLS(zvoKeptLightCreate);
-    REFUSES_NULLS(zvoKeptLightAddress);
-    REFUSES_NULLS(zvoKeptLightForget);
-    REFUSES_NULLS(zvoKeptLightStats);
-    REFUSES_NULLS(zvoKeptLightBytes);
+    REFUSES_NULLS(zvoRadianceCacheCreate);
+    REFUSES_NULLS(zvoRadianceCacheAddress);
+    REFUSES_NULLS(zvoRadianceCacheForget);
+    REFUSES_NULLS(zvoRadianceCacheStats);
+    REFUSES_NULLS(zvoRadianceCacheBytes);
     REFUSES_NULLS(zvoCameraLookAt);
     REFUSES_NULLS(zvoCameraRays);
     host.frame(
@@ -225,10 +225,10 @@ TEST(CStructs, PointersThatAreNullAreRefused)
             REFUSES_NULLS(zvoTracerTraceDynamic, 6);
             REFUSES_NULLS(zvoTracerTracePaths);
             REFUSES_NULLS(zvoTracerTracePathsDynamic);
-            REFUSES_NULLS(zvoTracerTraceKept);
-            REFUSES_NULLS(zvoTracerTraceKeptDynamic);
-            REFUSES_NULLS(zvoKeptLightUpdate);
-            REFUSES_NULLS(zvoKeptLightUpdateDynamic);
+            REFUSES_NULLS(zvoTracerTraceCached);
+            REFUSES_NULLS(zvoTracerTraceCachedDynamic);
+            REFUSES_NULLS(zvoRadianceCacheUpdate);
+            REFUSES_NULLS(zvoRadianceCacheUpdateDynamic);
             REFUSES_NULLS(zvoEnvironmentCreate, 1);
         });
 #undef REFUSES_NULLS
@@ -238,12 +238,12 @@ TEST(CStructs, PointersThatAreNullAreRefused)
           static_cast<const void*>(*given<ZvoRecorder**>()), static_cast<const void*>(*given<ZvoModel**>()),
           static_cast<const void*>(*given<ZvoTree**>()), static_cast<const void*>(*given<ZvoTreeJob**>()),
           static_cast<const void*>(*given<ZvoDynamicTree**>()), static_cast<const void*>(*given<ZvoEnvironment**>()),
-          static_cast<const void*>(*given<ZvoTracer**>()), static_cast<const void*>(*given<ZvoKeptLight**>())})
+          static_cast<const void*>(*given<ZvoTracer**>()), static_cast<const void*>(*given<ZvoRadianceCache**>())})
     {
         EXPECT_EQ(made, nullptr); // a failure leaves its results unchanged
     }
     zvoTracerDestroy(handle<ZvoTracer>());
-    zvoKeptLightDestroy(handle<ZvoKeptLight>());
+    zvoRadianceCacheDestroy(handle<ZvoRadianceCache>());
     zvoEnvironmentDestroy(handle<ZvoEnvironment>());
     zvoDynamicTreeDestroy(handle<ZvoDynamicTree>());
     zvoTreeJobDestroy(handle<ZvoTreeJob>());
@@ -264,7 +264,7 @@ TEST(CStructs, DestroyingNullDoesNothing)
     zvoDynamicTreeDestroy(nullptr);
     zvoEnvironmentDestroy(nullptr);
     zvoTracerDestroy(nullptr);
-    zvoKeptLightDestroy(nullptr);
+    zvoRadianceCacheDestroy(nullptr);
 }
 
 } // namespace

@@ -62,7 +62,7 @@ using Structs =
                    ZvoMaterialInfo, ZvoMeshInfo, ZvoInstanceInfo, ZvoModelInfo, ZvoModelStats, ZvoTreeInfo,
                    ZvoTreeBuildInfo, ZvoDroppedTriangles, ZvoDynamicTreeInfo, ZvoBrushInfo, ZvoUpdateStats, ZvoSunInfo,
                    ZvoEnvironmentMapInfo, ZvoCameraInfo, ZvoTraceInfo, ZvoPathInfo, ZvoImageTarget, ZvoDepthTarget,
-                   ZvoKeptLightInfo, ZvoKeptFrameInfo, ZvoKeptLightStats, ZvoKeptPictureInfo>;
+                   ZvoRadianceCacheInfo, ZvoCachedFrameInfo, ZvoRadianceCacheStats, ZvoCachedPictureInfo>;
 TYPED_TEST_SUITE(CStructSize, Structs);
 
 TYPED_TEST(CStructSize, MembersThatAnOlderHostDoesNotKnowAreTheDefaults)

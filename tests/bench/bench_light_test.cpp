@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What zvo-bench tells of paths, of light that is kept, and of choices by device.
+// What zvo-bench tells of paths, of the radiance cache, and of choices by device.
 #include "bench/bench_run.h"
 #include "core/base/tuning.h"
 #include "io/image/hdr_image_io.h"
@@ -23,17 +23,17 @@ namespace
 using BenchLight = BenchRun;
 
 // More frames are closer to paths.
-TEST_F(BenchLight, KeptLightIsComparedWithPaths)
+TEST_F(BenchLight, RadianceCacheIsComparedWithPaths)
 {
-    const json report = reportOf({"kept", "cube.glb", "--resolution", "8", "--size", "24x18", "--reference", "64"});
-    EXPECT_EQ(report["schema"], "zvo.bench_kept/1");
+    const json report = reportOf({"cache", "cube.glb", "--resolution", "8", "--size", "24x18", "--reference", "64"});
+    EXPECT_EQ(report["schema"], "zvo.bench_cache/1");
     const json& rows = report["rows"];
     ASSERT_EQ(rows.size(), 10U);
     EXPECT_EQ(rows[0]["integrator"], "primary");
     EXPECT_EQ(rows[3]["integrator"], "path");
     for (const std::size_t i : {4U, 6U, 8U})
     {
-        EXPECT_EQ(rows[i]["integrator"], "cached");
+        EXPECT_EQ(rows[i]["integrator"], "cache");
         EXPECT_EQ(rows[i + 1]["integrator"], "cones");
         EXPECT_EQ(rows[i]["samples"], rows[i + 1]["samples"]);
         EXPECT_EQ(rows[i]["bytes_of_voxel"], rows[i + 1]["bytes_of_voxel"]);
@@ -51,7 +51,7 @@ TEST_F(BenchLight, KeptLightIsComparedWithPaths)
 }
 
 // A cube crosses the picture in front of another one; or it moves behind the camera, and nothing is near.
-TEST_F(BenchLight, KeptLightFollowsWhatMoves)
+TEST_F(BenchLight, RadianceCacheFollowsWhatMoves)
 {
     const auto measure = [&](const std::string& from, const std::string& to)
     {
@@ -60,7 +60,7 @@ TEST_F(BenchLight, KeptLightFollowsWhatMoves)
                     "objects": [{{"file": "cube.glb"}}, {{"file": "cube.glb", "place": {{"scale": 0.4}},
                     "motion": {{"line": {{"from": [{}], "to": [{}]}}}}}}]}})",
                                                    from, to));
-        return reportOf({"kept", "move.scene.json", "--resolution", "16", "--size", "24x18", "--reference", "64"});
+        return reportOf({"cache", "move.scene.json", "--resolution", "16", "--size", "24x18", "--reference", "64"});
     };
     const json report = measure("-1, 0.3, 1.5", "2, 0.3, 1.5");
     EXPECT_TRUE(report["rows"].empty());
@@ -98,7 +98,7 @@ TEST_F(BenchLight, KeptLightFollowsWhatMoves)
     EXPECT_GT(unseen["calm_share"], 0.9);
 
     m_dir.write("still.scene.json", std::string_view(R"({"objects": [{"file": "cube.glb"}]})"));
-    expectError({"kept", "still.scene.json"}, 3, {"still.scene.json", "moves"});
+    expectError({"cache", "still.scene.json"}, 3, {"still.scene.json", "moves"});
 }
 
 // Sponza is seen from inside, where another camera is not asked for.
@@ -111,7 +111,7 @@ TEST_F(BenchLight, SponzaIsMeasuredInside)
     }
     const auto rows = [&](const std::vector<std::string>& more)
     {
-        std::vector<std::string> arguments = {"kept",   sponza->string(), "--resolution", "32",
+        std::vector<std::string> arguments = {"cache",  sponza->string(), "--resolution", "32",
                                               "--size", "16x9",           "--reference",  "4"};
         arguments.insert(arguments.end(), more.begin(), more.end());
         return reportOf(arguments)["rows"];

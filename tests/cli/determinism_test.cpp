@@ -135,7 +135,7 @@ TEST(PathBytes, DoNotDependOnThreadsSubgroupsAndForm)
 // More faces are wanted than a frame takes.
 TEST(CachedBytes, DoNotDependOnThreadsSubgroupsAndLoads)
 {
-    EXPECT_EQ(countPictures("--integrator cached --settle 10 --spp 3 --rays 300 --tuning loads=",
+    EXPECT_EQ(countPictures("--integrator cache --settle 10 --spp 3 --rays 300 --tuning loads=",
                             {"addresses", "descriptors"}),
               1U);
 }

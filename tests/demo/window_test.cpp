@@ -62,9 +62,9 @@ TEST_F(DemoWindow, PathsAddUpWhileNothingChanges)
 }
 
 // The command line's later frames look through other points of pixels.
-TEST_F(DemoWindow, KeptLightBeginsAsOnTheCommandLineAndGoesOn)
+TEST_F(DemoWindow, RadianceCacheBeginsAsOnTheCommandLineAndGoesOn)
 {
-    const std::string common = kCube + kCamera + kSize + " --integrator cached";
+    const std::string common = kCube + kCamera + kSize + " --integrator cache";
     const std::string first = render(common + " --settle 0 --spp 1");
     EXPECT_TRUE(shown(common, 1) == first);
     EXPECT_FALSE(shown(common, 5) == first);

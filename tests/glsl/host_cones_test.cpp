@@ -50,7 +50,7 @@ struct Found
 
 struct ConesPush
 {
-    gpu::ConstPtr<gpu::KeptLightTable> kept;
+    gpu::ConstPtr<gpu::RadianceCacheTable> kept;
     gpu::ConstPtr<gpu::TreeTable> tree;
     gpu::ConstPtr<Cone> cones;
     gpu::Ptr<Found> results;
@@ -68,7 +68,7 @@ struct CoveragePush
 
 const LitVoxel kGreyWall = {{}, glm::uvec3(188), glm::vec3(0.0F)};
 
-// Light that is kept on a tree's voxels, below a sky of one radiance.
+// The radiance cache on a tree's voxels, below a sky of one radiance.
 struct LightOfCones : test::HostLight
 {
     LightOfCones(const DeviceTree& tree, const glm::vec3& sky, const ViewCamera& view, std::uint32_t frames)

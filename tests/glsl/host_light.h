@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
-// Light that is kept on the voxels of a tree, and what kernels of hosts find of it.
+// The radiance cache of a tree, and what kernels of hosts find of it.
 #pragma once
 
 #include "core/frame/frame_renderer.h"
 #include "core/light/environment.h"
-#include "core/radiance/kept_light_table.h"
+#include "core/radiance/radiance_cache_table.h"
 #include "core/tree/device_tree.h"
 #include "glsl/host_device.h"
 #include "glsl/host_trees.h"
-#include "support/kept_light.h"
+#include "support/radiance_cache.h"
 
 #include <cstdint>
 #include <span>
@@ -48,15 +48,16 @@ struct HostLight
             });
     }
 
-    [[nodiscard]] gpu::KeptLightTable table() { return keptLightTable(tracer.cache(), environment); }
+    [[nodiscard]] gpu::RadianceCacheTable table() { return radianceCacheTable(tracer.cache(), environment); }
 
     /// Runs a host's kernel with a thread for each of given. Its push constants are kept, tree, given, results, their
     /// number and more.
     template <typename Push, typename Result, typename Given, typename... More>
-    std::vector<Result> run(const char* kernel, const DeviceTree& tree, const gpu::KeptLightTable& kept,
+    std::vector<Result> run(const char* kernel, const DeviceTree& tree, const gpu::RadianceCacheTable& kept,
                             const std::vector<Given>& given, const More&... more)
     {
-        const auto kept_table = deviceOfHosts().makeBuffer<gpu::KeptLightTable>("kept light", std::vector{kept});
+        const auto cache_table =
+            deviceOfHosts().makeBuffer<gpu::RadianceCacheTable>("radiance cache", std::vector{kept});
         const vk::BufferOf<gpu::TreeTable> tree_table = tableOf(tree);
         const auto given_buffer = deviceOfHosts().makeBuffer("given", std::span<const Given>(given));
         vk::BufferOf<Result> results(deviceOfHosts().device(), "results", given.size());
@@ -67,7 +68,7 @@ struct HostLight
                 readTree(pass, tree);
                 pass.read(tracer.cache().faces());
                 (void)environment.read(pass);
-                pass.dispatch(given.size(), Push{pass.read(kept_table), pass.read(tree_table), pass.read(given_buffer),
+                pass.dispatch(given.size(), Push{pass.read(cache_table), pass.read(tree_table), pass.read(given_buffer),
                                                  pass.write(results), static_cast<gpu::uint>(given.size()), more...});
             });
         return deviceOfHosts().download(results);

@@ -99,7 +99,7 @@ void keepLight(const DeviceTree& tree)
     {
         tracer.resize(9, height);
         const TraceCamera camera = traceCamera(view, tree.grid, height);
-        const FrameOptions options = {.integrator = height == 10 ? Integrator::Cached : Integrator::Cones,
+        const FrameOptions options = {.integrator = height == 10 ? Integrator::Cache : Integrator::Cones,
                                       .radiance = {.faces = 100}};
         for (std::uint32_t frame = 0; frame < 2; ++frame)
         {

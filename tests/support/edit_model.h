@@ -4,8 +4,8 @@
 
 #include "core/base/grid.h"
 #include "core/edit/brush.h"
-#include "zvo/types.h"
 #include "support/octree_contents.h"
+#include "zvo/types.h"
 
 #include <cstdint>
 #include <map>

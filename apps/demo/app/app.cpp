@@ -274,7 +274,7 @@ void App::buildPanels()
                        buildPanel();
                        toolsPanel();
                        viewPanel(m_view, {internalScale(), m_swapchain.mode(), m_camera.speed(),
-                                          m_renderer.sampleCount(), m_renderer.keptFrames(), RadianceOptions().faces});
+                                          m_renderer.sampleCount(), m_renderer.cacheFrames(), RadianceOptions().faces});
                        ImGui::TextUnformatted("F1: keys");
                    }
                    ImGui::End();

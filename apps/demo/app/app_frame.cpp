@@ -108,10 +108,10 @@ bool App::prepare(const Picture& picture)
     }
     catch (const Error& error)
     {
-        if (error.code() == ErrorCode::Memory && keepsLight(picture.options.shownIntegrator()))
+        if (error.code() == ErrorCode::Memory && usesCache(picture.options.shownIntegrator()))
         {
             m_view.frame.integrator = Integrator::Primary; // from the next frame on
-            cli::talk(fmt::format("warning: no light is kept on voxels: {}", error.what()));
+            cli::talk(fmt::format("warning: no radiance cache: {}", error.what()));
             return false;
         }
         if (error.code() != ErrorCode::Memory || m_drawn_count == 0)

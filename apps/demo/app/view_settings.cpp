@@ -43,7 +43,7 @@ Form<T> named(const cli::Names<T, count>& names, std::string_view expected = {})
             { return cli::parseNamed(option, argument, names); },
             [&names, expected](const JsonCursor& value)
             {
-                const auto found = std::ranges::find(names, value.isText() ? value.text() : "", &cli::Named<T>::name);
+                const auto found = cli::findNamed(names, value.isText() ? value.text() : "");
                 if (found == names.end())
                 {
                     throw value.mismatch(expected.empty() ? "one of " + cli::listOf(names) : std::string(expected));
@@ -161,7 +161,7 @@ void showView(ViewState& view, const ViewInfo&)
 
 void showIntegrator(ViewState& view, const ViewInfo& info)
 {
-    constexpr std::array kNames = {"primary rays", "paths", "kept on voxels", "through cones"};
+    constexpr std::array kNames = {"primary rays", "paths", "radiance cache", "through cones"};
     int chosen = static_cast<int>(view.frame.integrator);
     if (ImGui::Combo("light", &chosen, kNames.data(), static_cast<int>(kNames.size())))
     {
@@ -171,9 +171,9 @@ void showIntegrator(ViewState& view, const ViewInfo& info)
     {
         tell(fmt::format("{} paths a pixel", *info.samples));
     }
-    if (info.kept_frames)
+    if (info.cache_frames)
     {
-        tell(fmt::format("light of {} frames, {} faces a frame at most", *info.kept_frames, info.kept_faces));
+        tell(fmt::format("light of {} frames, {} faces a frame at most", *info.cache_frames, info.cached_faces));
     }
 }
 

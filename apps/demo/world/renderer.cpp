@@ -41,9 +41,9 @@ std::optional<std::uint32_t> Renderer::sampleCount() const
     return integrator() == Integrator::Path ? std::optional(m_renderer.pathCount()) : std::nullopt;
 }
 
-std::optional<std::uint32_t> Renderer::keptFrames() const
+std::optional<std::uint32_t> Renderer::cacheFrames() const
 {
-    return keepsLight(integrator()) ? std::optional(m_renderer.cacheFrameCount()) : std::nullopt;
+    return usesCache(integrator()) ? std::optional(m_renderer.cacheFrameCount()) : std::nullopt;
 }
 
 void Renderer::record(vk::FrameGraph& graph, const DeviceTree& tree, const Picture& picture)
@@ -54,7 +54,7 @@ void Renderer::record(vk::FrameGraph& graph, const DeviceTree& tree, const Pictu
     const FrameSubject subject = {tree, camera, &m_sky};
     const double strength = options.shadows ? options.sun : 0.0;
     m_sky.setSun({.direction = options.to_sun, .irradiance = strength * kSunColor});
-    if (picture.edited && keepsLight(integrator()))
+    if (picture.edited && usesCache(integrator()))
     {
         m_renderer.cache().noteChange();
     }

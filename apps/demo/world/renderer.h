@@ -64,8 +64,8 @@ public:
     /// Samples of each pixel of the picture, where it is path traced.
     [[nodiscard]] std::optional<std::uint32_t> sampleCount() const;
 
-    /// Frames since light is kept on voxels, where it is.
-    [[nodiscard]] std::optional<std::uint32_t> keptFrames() const;
+    /// Frames of the radiance cache, where there is one.
+    [[nodiscard]] std::optional<std::uint32_t> cacheFrames() const;
 
     /// Elements of the lists of the rays of the frame that was begun; 0 where it is not path traced.
     [[nodiscard]] std::uint64_t rayListElements() const { return m_renderer.rayListElements(m_options); }

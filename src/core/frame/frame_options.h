@@ -16,14 +16,14 @@ enum class Integrator : std::uint8_t
 {
     Primary, ///< primary rays, with rays to the sun and over the hemisphere (core/trace/trace.h)
     Path,    ///< path tracing (core/path/path_tracer.h)
-    Cached,  ///< light that is kept on voxels (core/radiance/radiance_cache.h)
-    Cones,   ///< the same light, seen through cones (KeptView::Cones)
+    Cache,   ///< the radiance cache (core/radiance/device_radiance_cache.h)
+    Cones,   ///< the same light, seen through cones (CacheView::Cones)
 };
 
-/// Whether light is kept on voxels.
-constexpr bool keepsLight(Integrator integrator)
+/// Whether light comes from the radiance cache.
+constexpr bool usesCache(Integrator integrator)
 {
-    return integrator == Integrator::Cached || integrator == Integrator::Cones;
+    return integrator == Integrator::Cache || integrator == Integrator::Cones;
 }
 
 /// Options of a picture. Those of other integrators than its own have no effect.
@@ -35,7 +35,7 @@ struct FrameOptions
     std::optional<PathForm> path_form = std::nullopt; // not given: pathFormOn() the device
     bool denoise = false;                             // Integrator::Path: filters the noise of few samples (Denoiser)
     std::uint32_t history_max = 16;                   // as in Denoiser::denoise()
-    RadianceOptions radiance = {};                    // Integrator::Cached and Cones
+    RadianceOptions radiance = {};                    // Integrator::Cache and Cones
     Exposure exposure = {};                           // Integrator::Primary: the factor alone
 
     bool operator==(const FrameOptions&) const = default;

@@ -27,7 +27,7 @@ bool denoises(const FrameOptions& options)
 void FrameRenderer::render(vk::FrameGraph& graph, const FrameSubject& subject, const FrameOptions& options,
                            vk::BufferOf<gpu::DispatchArgs>* ray_lists)
 {
-    if (keepsLight(options.shownIntegrator()))
+    if (usesCache(options.shownIntegrator()))
     {
         beginPicture(options);
     }
@@ -52,7 +52,7 @@ void FrameRenderer::addSample(vk::FrameGraph& graph, const FrameSubject& subject
         pathsOfSize(options).addSample(graph, subject.tree, *subject.environment, subject.camera, pathOptions(options),
                                        ray_lists);
         break;
-    case Integrator::Cached:
+    case Integrator::Cache:
     case Integrator::Cones:
     {
         RadianceView& view = viewOfSize();
@@ -67,7 +67,8 @@ void FrameRenderer::addSample(vk::FrameGraph& graph, const FrameSubject& subject
             m_tracer.tracePrimary(graph, subject.tree, camera, {});
         }
         view.add(graph, subject.cache == nullptr ? cache() : *subject.cache, subject.tree, *subject.environment, camera,
-                 buffers(), integrator == Integrator::Cones ? KeptView::Cones : KeptView::Faces, options.radiance.seed);
+                 buffers(), integrator == Integrator::Cones ? CacheView::Cones : CacheView::Faces,
+                 options.radiance.seed);
         break;
     }
     }
@@ -115,7 +116,7 @@ void FrameRenderer::reserve(const DeviceTree& tree, const FrameOptions& options)
     {
         denoiserOfSize();
     }
-    if (keepsLight(integrator))
+    if (usesCache(integrator))
     {
         viewOfSize();
         cache().reserve(tree, buffers().width, buffers().height, options.radiance);
@@ -157,11 +158,11 @@ RadianceView& FrameRenderer::viewOfSize()
     return *m_view;
 }
 
-RadianceCache& FrameRenderer::cache()
+DeviceRadianceCache& FrameRenderer::cache()
 {
     if (m_cache == nullptr)
     {
-        m_cache = std::make_unique<RadianceCache>(m_device, m_deletion_queue);
+        m_cache = std::make_unique<DeviceRadianceCache>(m_device, m_deletion_queue);
     }
     return *m_cache;
 }
@@ -177,7 +178,7 @@ Developer& FrameRenderer::developer()
 
 void FrameRenderer::beginPicture(const FrameOptions& options)
 {
-    if (keepsLight(options.integrator) && m_view != nullptr)
+    if (usesCache(options.integrator) && m_view != nullptr)
     {
         m_view->begin();
     }
@@ -210,9 +211,9 @@ void FrameRenderer::dropSamples()
 
 SampledPicture FrameRenderer::samples(const FrameOptions& options) const
 {
-    return keepsLight(options.integrator) ? m_view->picture()
-           : options.denoise              ? m_denoiser->picture()
-                                          : m_paths->picture();
+    return usesCache(options.integrator) ? m_view->picture()
+           : options.denoise             ? m_denoiser->picture()
+                                         : m_paths->picture();
 }
 
 std::uint64_t FrameRenderer::rayListElements(const FrameOptions& options) const

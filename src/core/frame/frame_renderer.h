@@ -6,7 +6,7 @@
 #include "core/light/environment.h"
 #include "core/path/develop.h"
 #include "core/path/path_tracer.h"
-#include "core/radiance/radiance_cache.h"
+#include "core/radiance/device_radiance_cache.h"
 #include "core/radiance/radiance_view.h"
 #include "core/scene/camera.h"
 #include "core/trace/tree_tracer.h"
@@ -28,7 +28,7 @@ struct FrameSubject
     DeviceEnvironment* environment = nullptr; // Integrator::Primary needs none
     /// Light that was brought up to date elsewhere, for the same tree and environment. Null: that of the renderer,
     /// which samples bring up to date.
-    const RadianceCache* cache = nullptr;
+    const DeviceRadianceCache* cache = nullptr;
 };
 
 /// From a tree to a picture: records the passes of every integrator, and owns their buffers, which are made when an
@@ -57,7 +57,7 @@ public:
                 vk::BufferOf<gpu::DispatchArgs>* ray_lists = nullptr);
 
     /// Records the passes that make the picture of primary rays, or add a sample to each pixel of samples(). Paths
-    /// begin anew by themselves (PathTracer::addSample()); light that is kept does so after beginPicture(), and its
+    /// begin anew by themselves (PathTracer::addSample()); the radiance cache does so after beginPicture(), and its
     /// samples go through other points of the pixels, the same of each. Throws Error{Memory}. Cost: that of the
     /// integrator.
     void addSample(vk::FrameGraph& graph, const FrameSubject& subject, const FrameOptions& options,
@@ -82,7 +82,7 @@ public:
     /// is no picture. Throws Error{Memory}. Cost: as addSample(), without what it takes to show light.
     void settle(vk::FrameGraph& graph, const FrameSubject& subject, const FrameOptions& options);
 
-    /// Begins a new picture of the integrator with the next sample. Light that is kept stays, and so do earlier
+    /// Begins a new picture of the integrator with the next sample. The radiance cache stays, and so do earlier
     /// pictures that help to denoise.
     void beginPicture(const FrameOptions& options);
 
@@ -93,7 +93,7 @@ public:
     /// Has the node paths made anew for the next picture: because the last frame was lost.
     void forgetNodePaths() { m_tracer.forget(); }
 
-    /// Drops what samples need, and light that is kept; frames make it anew. Call it when another integrator is shown
+    /// Drops what samples need, and the radiance cache; frames make it anew. Call it when another integrator is shown
     /// from now on, or kernels may have changed.
     void dropSamples();
 
@@ -109,10 +109,10 @@ public:
     /// [1] the factor of the radiance in the last picture of samples.
     [[nodiscard]] const vk::BufferOf<float>& exposure() const { return m_developer->exposure(); }
 
-    /// The light that is kept, if samples bring it up to date.
-    [[nodiscard]] RadianceCache& cache();
+    /// the radiance cache, if samples bring it up to date.
+    [[nodiscard]] DeviceRadianceCache& cache();
 
-    /// Frames that brought light up to date so far; 0 without light that is kept.
+    /// Frames that brought the radiance cache up to date so far; 0 without one.
     [[nodiscard]] std::uint32_t cacheFrameCount() const { return m_cache == nullptr ? 0 : m_cache->frameCount(); }
 
     /// Paths that were traced for each pixel so far; 0 without paths.
@@ -141,7 +141,7 @@ private:
     TreeTracer m_tracer;
     std::unique_ptr<PathTracer> m_paths; // null until an integrator needs it, like those below
     std::unique_ptr<Denoiser> m_denoiser;
-    std::unique_ptr<RadianceCache> m_cache;
+    std::unique_ptr<DeviceRadianceCache> m_cache;
     std::unique_ptr<RadianceView> m_view;
     std::unique_ptr<Developer> m_developer;
 };

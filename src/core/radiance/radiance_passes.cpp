@@ -60,8 +60,8 @@ void clear(vk::FrameGraph& graph, const RadianceFrame& frame)
 void want(vk::FrameGraph& graph, const RadianceFrame& frame)
 {
     vk::Pass pass = graph.addPass(
-        gpu::radiance::Want{.orthographic = frame.camera.orthographic,
-                            .turns = wantingTurns(frame.seen.width, frame.seen.height, frame.lists.faces)});
+        gpu::radiance::Request{.orthographic = frame.camera.orthographic,
+                               .turns = wantingTurns(frame.seen.width, frame.seen.height, frame.lists.faces)});
     pass.dispatchIndirect(frame.seen.args, 0,
                           {.faces = pass.readWrite(frame.table.faces),
                            .states = pass.readWrite(frame.table.states),
@@ -83,7 +83,7 @@ void want(vk::FrameGraph& graph, const RadianceFrame& frame)
 void tally(vk::FrameGraph& graph, const RadianceFrame& frame)
 {
     PathBatch& batch = frame.lists.batch;
-    vk::Pass pass = graph.addPass(gpu::radiance::Tally{});
+    vk::Pass pass = graph.addPass(gpu::radiance::Count{});
     pass.dispatchIndirect(batch.lists, listArgs(wantedList(frame.number), gpu::kListPaths),
                           {.faces = pass.read(frame.table.faces),
                            .states = pass.read(frame.table.states),
@@ -98,7 +98,7 @@ void tally(vk::FrameGraph& graph, const RadianceFrame& frame)
 void take(vk::FrameGraph& graph, const RadianceFrame& frame)
 {
     PathBatch& batch = frame.lists.batch;
-    vk::Pass pass = graph.addPass(gpu::radiance::Take{});
+    vk::Pass pass = graph.addPass(gpu::radiance::Select{});
     pass.dispatchIndirect(batch.lists, listArgs(wantedList(frame.number), gpu::kListPaths),
                           {.faces = pass.read(frame.table.faces),
                            .states = pass.readWrite(frame.table.states),
@@ -218,8 +218,8 @@ void extend(vk::FrameGraph& graph, const RadianceFrame& frame)
 void apply(vk::FrameGraph& graph, const RadianceFrame& frame)
 {
     PathBatch& batch = frame.lists.batch;
-    vk::Pass pass = graph.addPass(gpu::radiance::Apply{});
-    gpu::RadianceApplyParams params{};
+    vk::Pass pass = graph.addPass(gpu::radiance::Update{});
+    gpu::RadianceUpdateParams params{};
     params.faces = pass.readWrite(frame.table.faces);
     params.states = pass.readWrite(frame.table.states);
     params.numbers = pass.read(batch.numbers);
@@ -229,7 +229,7 @@ void apply(vk::FrameGraph& graph, const RadianceFrame& frame)
     params.batch = static_cast<std::uint32_t>(batch.capacity());
     params.run_count = frame.table.run_count;
     params.frame = frame.number;
-    params.window = std::clamp(frame.window, 1U, gpu::kKeptWeightMax);
+    params.window = std::clamp(frame.window, 1U, gpu::kCachedWeightMax);
     params.touched_window = frame.moves ? std::min(params.window, gpu::kTouchedSamples) : params.window;
     params.moved_window = frame.moves ? std::min(params.window, gpu::kMovedSamples) : params.window;
     pass.dispatchIndirect(batch.lists, listArgs(0, gpu::kListPaths), params,
@@ -240,9 +240,9 @@ void fold(vk::FrameGraph& graph, const RadianceFrame& frame, std::uint32_t level
 {
     PathBatch& batch = frame.lists.batch;
     const auto windowOf = [&](std::uint32_t samples)
-    { return std::clamp(gpu::kBrickFaces * std::min(samples, frame.window), 1U, gpu::kKeptWeightMax); };
-    vk::Pass pass = graph.addPass(gpu::radiance::Fold{});
-    gpu::RadianceFoldParams params{};
+    { return std::clamp(gpu::kBrickFaces * std::min(samples, frame.window), 1U, gpu::kCachedWeightMax); };
+    vk::Pass pass = graph.addPass(gpu::radiance::UpdateBricks{});
+    gpu::RadianceUpdateBricksParams params{};
     params.faces = pass.readWrite(frame.table.faces);
     params.states = pass.readWrite(frame.table.states);
     params.bricks = pass.read(frame.lists.bricks);
@@ -264,7 +264,7 @@ RadianceTable::RadianceTable(vk::Device& device, std::uint64_t runs)
     : run_count(static_cast<std::uint32_t>(runs)), counters(device, "radiance/counters", 1)
 {
     const std::uint64_t slots = gpu::kFaceRun * runs;
-    device.memory().require(slots * (sizeof(gpu::KeptFace) + sizeof(gpu::FaceState)), kPurpose);
+    device.memory().require(slots * (sizeof(gpu::CachedFace) + sizeof(gpu::FaceState)), kPurpose);
     faces = {device, "radiance/faces", slots};
     states = {device, "radiance/states", slots};
 }
@@ -309,7 +309,7 @@ void purgeFaces(vk::FrameGraph& graph, const RadianceTable& from, RadianceTable&
     graph.fill(to.counters, 0);
     graph.fill(lists.batch.lists, 0);
     graph.fill(lists.sums, 0);
-    vk::Pass pass = graph.addPass(gpu::radiance::Purge{});
+    vk::Pass pass = graph.addPass(gpu::radiance::Evict{});
     pass.dispatch(to.faces.count(), {.faces = pass.readWrite(to.faces),
                                      .states = pass.readWrite(to.states),
                                      .counters = pass.readWrite(to.counters),

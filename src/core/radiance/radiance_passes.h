@@ -16,11 +16,11 @@
 namespace zvo
 {
 
-/// Options of the light that is kept on voxels.
+/// Options of the radiance cache.
 struct RadianceOptions
 {
-    std::uint32_t faces = 1U << 14;             // the most that a frame takes, by up to two rays and two shadow rays
-    std::uint32_t window = gpu::kKeptWeightMax; // the most samples that a mean counts
+    std::uint32_t faces = 1U << 14;               // the most that a frame takes, by up to two rays and two shadow rays
+    std::uint32_t window = gpu::kCachedWeightMax; // the most samples that a mean counts
     std::uint32_t seed = 0;
 
     bool operator==(const RadianceOptions&) const = default;
@@ -36,7 +36,7 @@ struct RadianceTable
     [[nodiscard]] std::uint64_t bytes() const;
 
     std::uint32_t run_count;
-    vk::BufferOf<gpu::KeptFace> faces;            // [kFaceRun * run_count]
+    vk::BufferOf<gpu::CachedFace> faces;          // [kFaceRun * run_count]
     vk::BufferOf<gpu::FaceState> states;          // likewise
     vk::BufferOf<gpu::RadianceCounters> counters; // [1]
 };
@@ -71,7 +71,7 @@ struct RadianceFrame
     const TraceCamera& camera;
     const TraceBuffers& seen; // filled by tracePrimary() of the same tree and camera without a level of detail
     std::uint32_t seed;
-    std::uint32_t number; // 0: nothing is kept yet
+    std::uint32_t number; // 0: nothing is cached yet
     bool moves;           // something has moved lately
     std::uint32_t window; // the most samples that means count
 

@@ -19,12 +19,12 @@ glm::vec2 pointOfPixel(std::uint32_t frame)
 /// What a frame of the picture is made of.
 struct RadianceView::Work
 {
-    const RadianceCache& cache;
+    const DeviceRadianceCache& cache;
     const DeviceTree& tree;
     const DeviceEnvironment& environment;
     const TraceCamera& camera;
     const TraceBuffers& seen;
-    KeptView kind;
+    CacheView kind;
     bool begins; // sets the sums
 
     [[nodiscard]] std::uint32_t runCount() const
@@ -40,15 +40,15 @@ RadianceView::RadianceView(vk::Device& device, std::uint32_t width, std::uint32_
 {
 }
 
-void RadianceView::add(vk::FrameGraph& graph, const RadianceCache& cache, const DeviceTree& tree,
+void RadianceView::add(vk::FrameGraph& graph, const DeviceRadianceCache& cache, const DeviceTree& tree,
                        const DeviceEnvironment& environment, const TraceCamera& camera, const TraceBuffers& seen,
-                       KeptView kind, std::uint32_t seed)
+                       CacheView kind, std::uint32_t seed)
 {
     const std::uint32_t frame = std::exchange(m_frame_count, 0); // should anything below throw
     const Work work = {cache, tree, environment, camera, seen, kind, frame == 0};
     graph.fill(m_lists, 0);
-    addKept(graph, work);
-    for (std::uint32_t cone = 0; kind == KeptView::Cones && cone < gpu::kDiffuseCones; ++cone)
+    addCached(graph, work);
+    for (std::uint32_t cone = 0; kind == CacheView::Cones && cone < gpu::kDiffuseCones; ++cone)
     {
         addCone(graph, work, cone, seed);
     }
@@ -57,14 +57,14 @@ void RadianceView::add(vk::FrameGraph& graph, const RadianceCache& cache, const 
 }
 
 // Records the pass that lists pixels which see light directly, and adds what the others reflect, unless cones do.
-void RadianceView::addKept(vk::FrameGraph& graph, const Work& work)
+void RadianceView::addCached(vk::FrameGraph& graph, const Work& work)
 {
     const bool emits = hasEmission(work.tree);
     vk::Pass pass = graph.addPass(gpu::radiance::View{.node_levels = work.tree.grid.nodeLevels(),
                                                       .orthographic = work.camera.orthographic,
                                                       .format = work.tree.attributeFormat(),
                                                       .emission = emits,
-                                                      .reflects = work.kind == KeptView::Faces,
+                                                      .reflects = work.kind == CacheView::Faces,
                                                       .adds = !work.begins});
     pass.dispatch(m_sums.count(), {.faces = pass.read(work.cache.faces()),
                                    .hits = pass.read(work.seen.hits),

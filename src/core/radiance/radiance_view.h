@@ -2,15 +2,15 @@
 #pragma once
 
 #include "core/path/develop.h"
-#include "core/radiance/radiance_cache.h"
+#include "core/radiance/device_radiance_cache.h"
 
 #include <cstdint>
 
 namespace zvo
 {
 
-/// How a picture shows light that is kept.
-enum class KeptView : std::uint8_t
+/// How a picture shows the radiance cache.
+enum class CacheView : std::uint8_t
 {
     Faces, ///< that of the faces that are seen
     Cones, ///< what comes to them through six cones (C. Crassin et al., 2011), to compare with
@@ -20,7 +20,7 @@ enum class KeptView : std::uint8_t
 /// the middle in the first (M. Roberts, The Unreasonable Effectiveness of Quasirandom Sequences, 2018).
 glm::vec2 pointOfPixel(std::uint32_t frame);
 
-/// A picture of light that is kept on voxels. Owns its buffers.
+/// A picture by the radiance cache. Owns its buffers.
 class RadianceView
 {
 public:
@@ -30,13 +30,13 @@ public:
     /// Begins a new picture with the next frame.
     void begin() { m_frame_count = 0; }
 
-    /// Records the passes that add what the camera sees, of the light that is kept and directly, to the picture. cache:
+    /// Records the passes that add what the camera sees, of the radiance cache and directly, to the picture. cache:
     /// after its update() for the same tree and environment. seen: filled by tracePrimary() of the tree, without a
-    /// level of detail, in the picture's size. Cost: pixels; for KeptView::Cones, six cones and a ray to the sun for
+    /// level of detail, in the picture's size. Cost: pixels; for CacheView::Cones, six cones and a ray to the sun for
     /// each, which follow their rays in one dispatch, however long.
-    void add(vk::FrameGraph& graph, const RadianceCache& cache, const DeviceTree& tree,
+    void add(vk::FrameGraph& graph, const DeviceRadianceCache& cache, const DeviceTree& tree,
              const DeviceEnvironment& environment, const TraceCamera& camera, const TraceBuffers& seen,
-             KeptView kind = KeptView::Faces, std::uint32_t seed = 0);
+             CacheView kind = CacheView::Faces, std::uint32_t seed = 0);
 
     /// Frames so far.
     [[nodiscard]] std::uint32_t frameCount() const { return m_frame_count; }
@@ -50,7 +50,7 @@ public:
 private:
     struct Work;
 
-    void addKept(vk::FrameGraph& graph, const Work& work);
+    void addCached(vk::FrameGraph& graph, const Work& work);
     void addCone(vk::FrameGraph& graph, const Work& work, std::uint32_t cone, std::uint32_t seed);
     void addDirect(vk::FrameGraph& graph, const Work& work);
 

@@ -6,8 +6,8 @@
 #include "core/scene/animation.h"
 #include "core/scene/camera.h"
 #include "core/scene/motion.h"
-#include "zvo/types.h"
 #include "io/scene/load_scene.h"
+#include "zvo/types.h"
 
 #include <cstdint>
 #include <filesystem>

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-// Light that is kept on voxels: pictures against those of path tracing, bytes, bricks, budgets and tables.
-#include "core/radiance/radiance_cache.h"
+// The radiance cache: pictures against those of path tracing, bytes, bricks, budgets and tables.
+#include "core/radiance/device_radiance_cache.h"
 
 #include "core/scene/camera.h"
 #include "support/engine_device.h"
-#include "support/kept_light.h"
 #include "support/lit_voxels.h"
+#include "support/radiance_cache.h"
 
 #include <gtest/gtest.h>
 
@@ -42,7 +42,7 @@ LitVoxel lamp()
 }
 
 // The faces, and the bricks of each level.
-std::vector<std::map<FaceName, FaceLight>> levelsOf(RadianceCache& cache)
+std::vector<std::map<FaceName, FaceLight>> levelsOf(DeviceRadianceCache& cache)
 {
     std::vector<std::map<FaceName, FaceLight>> levels;
     for (std::uint32_t level = 0; level <= gpu::kBrickLevels; ++level)
@@ -146,7 +146,7 @@ TEST(RadiancePictures, ByConesAreNearThoseOfPathTracing)
     Hall hall;
     const PathPicture truth = pictureOf(hall.tree, hall.dark, hall.view, 40, 512, {.bounces = 10});
     std::array<double, 2> errors{};
-    for (const KeptView kind : {KeptView::Faces, KeptView::Cones})
+    for (const CacheView kind : {CacheView::Faces, CacheView::Cones})
     {
         FrameRenderer tracer(device().device());
         const PathPicture picture = settledPicture(tracer, hall.tree, hall.dark, hall.view, 40, 128, 64, {}, kind);
@@ -170,7 +170,7 @@ TEST(RadiancePictures, ByConesHaveTheLightOfAllBounces)
         DeviceEnvironment dark = constantSky(glm::vec3(0.0F));
         const ViewCamera inside = ViewCamera::lookAt({16.2, 16.1, 16.3}, {1.0, 2.0, 3.0}, 1.0);
         FrameRenderer tracer(device().device());
-        const PathPicture picture = settledPicture(tracer, tree, dark, inside, 40, 128, 16, {}, KeptView::Cones);
+        const PathPicture picture = settledPicture(tracer, tree, dark, inside, 40, 128, 16, {}, CacheView::Cones);
         EXPECT_NEAR(picture.luminance, expected, (thickness == 1 ? 0.05 : 0.01) * expected);
     }
 }

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Light that is kept on voxels against known answers.
+// The radiance cache against known answers.
 #include "core/scene/camera.h"
 #include "support/engine_device.h"
-#include "support/kept_light.h"
 #include "support/lit_voxels.h"
+#include "support/radiance_cache.h"
 
 #include <gtest/gtest.h>
 
@@ -70,7 +70,7 @@ TEST(RadianceFurnace, AWhiteCubeCanHardlyBeSeenThroughCones)
     const TraceCamera camera = traceCamera(outside(), tree.grid, 64);
     device().run(
         [&](vk::FrameGraph& graph) {
-            tracer.addSample(graph, {tree, camera, &sky}, test::cachedOptions({}, KeptView::Cones));
+            tracer.addSample(graph, {tree, camera, &sky}, test::cachedOptions({}, CacheView::Cones));
         });
     const PathPicture picture = pictureOf(tracer);
     EXPECT_NEAR(picture.luminance, test::luminanceOf({0.5, 1.0, 2.0}), 0.02);

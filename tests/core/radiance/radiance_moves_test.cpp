@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-// Light that is kept on voxels, while something moves.
+// The radiance cache, while something moves.
 #include "core/base/grid.h"
 #include "core/dynamic/dynamic_octree.h"
 #include "core/frame/frame_renderer.h"
 #include "support/dynamic_updates.h"
 #include "support/engine_device.h"
-#include "support/kept_light.h"
 #include "support/lit_voxels.h"
+#include "support/radiance_cache.h"
 #include "support/scenes.h"
 #include "support/sweep.h"
 

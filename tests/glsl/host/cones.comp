@@ -32,7 +32,7 @@ layout(buffer_reference, scalar, buffer_reference_align = 4) writeonly buffer Re
 
 layout(push_constant, scalar) uniform Push
 {
-    zvo_KeptLightTable_ConstPtr kept;
+    zvo_RadianceCacheTable_ConstPtr kept;
     zvo_TreeTable_ConstPtr tree;
     Cones cones;
     Results results;
@@ -61,7 +61,7 @@ void main()
         found.mean += zvo_cone(kept, tree, at.origin, at.direction, at.aperture, at.reach, i * rays + k) / float(rays);
         vec3 direction = directionIn(at, k);
         zvo_Hit hit = zvo_trace(tree, at.origin, direction, 0.0, at.reach);
-        vec4 met = zvo_keptRadiance(kept, tree, hit, at.origin, direction);
+        vec4 met = zvo_cachedRadiance(kept, tree, hit, at.origin, direction);
         found.rays += vec4(met.rgb, zvo_isHit(hit) ? 0.0 : 1.0) / float(rays);
     }
     results.found[i] = found;

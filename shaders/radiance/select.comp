@@ -4,7 +4,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "radiance/radiance.h"
 
-GPU_ENTRY(RadianceTakeParams, GPU_NO_CONSTANTS);
+GPU_ENTRY(RadianceSelectParams, GPU_NO_CONSTANTS);
 layout(local_size_x = kRadianceGroup) in;
 
 #include "lib/bound.glsl"
@@ -13,7 +13,7 @@ layout(local_size_x = kRadianceGroup) in;
 #define FACES_BINDING 0
 #define STATES_BINDING 1
 #include "path/lists.glsl"
-#include "radiance/kept_face.glsl"
+#include "radiance/cached_face.glsl"
 #include "radiance/rank.glsl"
 
 void main()

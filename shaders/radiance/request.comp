@@ -5,7 +5,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "radiance/radiance.h"
 
-GPU_ENTRY(RadianceWantParams, RADIANCE_WANT_CONSTANTS);
+GPU_ENTRY(RadianceRequestParams, RADIANCE_REQUEST_CONSTANTS);
 layout(local_size_x = kTilePixels / 4u) in;
 
 #include "lib/bound.glsl"

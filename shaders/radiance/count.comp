@@ -5,7 +5,7 @@
 #extension GL_KHR_shader_subgroup_arithmetic : require
 #include "radiance/radiance.h"
 
-GPU_ENTRY(RadianceTallyParams, GPU_NO_CONSTANTS);
+GPU_ENTRY(RadianceCountParams, GPU_NO_CONSTANTS);
 layout(local_size_x = kRadianceGroup) in;
 
 #include "lib/arrivals.glsl"
@@ -15,7 +15,7 @@ layout(local_size_x = kRadianceGroup) in;
 #define FACES_BINDING 0
 #define STATES_BINDING 1
 #include "path/lists.glsl"
-#include "radiance/kept_face.glsl"
+#include "radiance/cached_face.glsl"
 #include "radiance/rank.glsl"
 
 // The least rank such that all faces of it and of those below are more than the budget.

@@ -19,11 +19,11 @@ namespace zvo
 
 /// Keeps the light that arrives at the faces of voxels (shaders/radiance/radiance.h), and brings it up to date by a
 /// bounded number of rays a frame. Owns all buffers.
-class RadianceCache
+class DeviceRadianceCache
 {
 public:
     /// deletion_queue: as in TreeTracer.
-    explicit RadianceCache(vk::Device& device, vk::DeletionQueue* deletion_queue = nullptr)
+    explicit DeviceRadianceCache(vk::Device& device, vk::DeletionQueue* deletion_queue = nullptr)
         : m_device(device), m_deletion_queue(deletion_queue), m_status(device, "radiance/status", 1),
           m_lights(device, deletion_queue)
     {
@@ -57,7 +57,7 @@ public:
     [[nodiscard]] const vk::BufferOf<gpu::RadianceCounters>& counters() const { return m_table->counters; }
 
     /// [slots] the table, in which free slots have a key of 0.
-    [[nodiscard]] const vk::BufferOf<gpu::KeptFace>& faces() const { return m_table->faces; }
+    [[nodiscard]] const vk::BufferOf<gpu::CachedFace>& faces() const { return m_table->faces; }
 
     /// Where the buffers of the tree of the last update() are.
     [[nodiscard]] const vk::BufferOf<gpu::TreeTable>& treeTable() const { return m_lights.table(); }

@@ -7,7 +7,7 @@
 layout(local_size_x = 64) in;
 layout(push_constant, scalar) uniform Push
 {
-    zvo_KeptLightTable_ConstPtr kept;
+    zvo_RadianceCacheTable_ConstPtr kept;
     zvo_uvec4_Ptr results; // [1 + slots] numbers of runs and frames, then keys and light
     uint slots;            // that there is room for
 };
@@ -24,7 +24,7 @@ void main()
     uvec4 words = uvec4(0u);
     if (i < count)
     {
-        zvo_KeptFace face = kept.data[0].faces.data[i];
+        zvo_CachedFace face = kept.data[0].faces.data[i];
         words = uvec4(face.key, face.light);
     }
     results.data[1u + i] = words;

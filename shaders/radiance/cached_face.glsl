@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a kept face consists of (radiance/kept_faces.h): its key, and the light that it keeps.
+// What a cached face consists of (radiance/cached_faces.h): its key, and the light that it keeps.
 // Needs params.faces, and params.states with STATES_BINDING.
 // FACES_BINDING, STATES_BINDING (optional): the bindings of both in the kernel's bound form (lib/bound.glsl).
 //
@@ -8,11 +8,11 @@
 //
 // thresholds: three numbers in [0, 1). A channel is rounded up where its fraction is above one minus that. So means of
 // many small steps stay unbiased.
-#ifndef ZVO_SHADERS_RADIANCE_KEPT_FACE_GLSL
-#define ZVO_SHADERS_RADIANCE_KEPT_FACE_GLSL
+#ifndef ZVO_SHADERS_RADIANCE_CACHED_FACE_GLSL
+#define ZVO_SHADERS_RADIANCE_CACHED_FACE_GLSL
 
 #include "lib/bound.glsl"
-#include "radiance/kept_faces.h"
+#include "radiance/cached_faces.h"
 
 // cell: of the level. normal: its number as in LightBrick::exposed.
 uvec2 faceKey(uvec3 cell, uint normal, uint level)
@@ -42,15 +42,15 @@ vec3 thresholdsOf(uint random)
     return vec3(random & 1023u, bitfieldExtract(random, 10, 10), bitfieldExtract(random, 20, 10)) / 1024.0;
 }
 
-const int kKeptBias = 37; // a mantissa is worth 2^(exponent - kKeptBias)
+const int kCacheBias = 37; // a mantissa is worth 2^(exponent - kCacheBias)
 
-vec3 keptRadiance(uvec2 light)
+vec3 cachedRadiance(uvec2 light)
 {
     vec3 mantissas = vec3(light.x & 0xFFFFu, light.x >> 16, light.y & 0xFFFFu);
-    return mantissas * exp2(float(int(bitfieldExtract(light.y, 16, 6)) - kKeptBias));
+    return mantissas * exp2(float(int(bitfieldExtract(light.y, 16, 6)) - kCacheBias));
 }
 
-uint keptWeight(uvec2 light)
+uint cachedWeight(uvec2 light)
 {
     return light.y >> 22;
 }
@@ -68,12 +68,12 @@ uvec3 mantissasOf(vec3 radiance, int exponent, int bits, vec3 thresholds)
     return uvec3(min(scaled + thresholds, vec3(float((1 << bits) - 1))));
 }
 
-uvec2 packKept(vec3 radiance, uint weight, vec3 thresholds)
+uvec2 packCached(vec3 radiance, uint weight, vec3 thresholds)
 {
-    int exponent = clamp(exponentFor(radiance, 16), -kKeptBias, 63 - kKeptBias);
+    int exponent = clamp(exponentFor(radiance, 16), -kCacheBias, 63 - kCacheBias);
     uvec3 mantissas = mantissasOf(radiance, exponent, 16, thresholds);
     return uvec2(mantissas.r | (mantissas.g << 16),
-                 mantissas.b | (uint(exponent + kKeptBias) << 16) | (weight << 22));
+                 mantissas.b | (uint(exponent + kCacheBias) << 16) | (weight << 22));
 }
 
 const int kRecentBias = 126;
@@ -94,18 +94,18 @@ uint packRecent(vec3 radiance, vec3 thresholds)
 
 TEXELS_4(FACES_BINDING, faces);
 
-KeptFace loadFace(uint slot)
+CachedFace loadFace(uint slot)
 {
     uvec4 words = texelFetch(texels4_faces, int(slot));
-    return KeptFace(words.xy, words.zw);
+    return CachedFace(words.xy, words.zw);
 }
 
 #else
 
-KeptFace loadFace(uint slot)
+CachedFace loadFace(uint slot)
 {
     uint64_t_ConstPtr words = uint64_t_ConstPtr(uint64_t(params.faces));
-    return KeptFace(unpackUint2x32(words.data[2u * slot]), unpackUint2x32(words.data[2u * slot + 1u]));
+    return CachedFace(unpackUint2x32(words.data[2u * slot]), unpackUint2x32(words.data[2u * slot + 1u]));
 }
 
 #endif

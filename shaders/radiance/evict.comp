@@ -4,20 +4,20 @@
 #extension GL_GOOGLE_include_directive : require
 #include "radiance/radiance.h"
 
-GPU_ENTRY(RadiancePurgeParams, GPU_NO_CONSTANTS);
+GPU_ENTRY(RadianceEvictParams, GPU_NO_CONSTANTS);
 layout(local_size_x = kRadianceGroup) in;
 
 #include "lib/dispatch.glsl"
 #include "radiance/face_table.glsl"
 #include "radiance/insert_face.glsl"
-#include "radiance/kept_face.glsl"
+#include "radiance/cached_face.glsl"
 
 void main()
 {
     uint i = threadIndex();
     if (i >= kFaceRun * params.run_count)
         return;
-    KeptFace face = params.old_faces.data[i];
+    CachedFace face = params.old_faces.data[i];
     FaceState state = params.old_states.data[i];
     uint age = (params.frame - state.mark) & kMarkFrames;
     if (face.key.x == 0u || age > params.age_max)

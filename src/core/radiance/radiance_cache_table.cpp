@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "core/radiance/kept_light_table.h"
+#include "core/radiance/radiance_cache_table.h"
 
 namespace zvo
 {
 
-gpu::KeptLightTable keptLightTable(const RadianceCache& cache, const DeviceEnvironment& environment)
+gpu::RadianceCacheTable radianceCacheTable(const DeviceRadianceCache& cache, const DeviceEnvironment& environment)
 {
     return {.faces = {cache.faces().address()},
             .environment = {environment.buffer().address()},

@@ -6,8 +6,8 @@
 namespace zvo::cli
 {
 
-/// `zvo-bench kept`: how close pictures of light that is kept on voxels come to path tracing, and what they take,
+/// `zvo-bench cache`: how close pictures by the radiance cache come to path tracing, and what they take,
 /// beside paths and primary rays. Throws Error.
-void benchKept(const BenchKeptOptions& options);
+void benchCache(const BenchCacheOptions& options);
 
 } // namespace zvo::cli

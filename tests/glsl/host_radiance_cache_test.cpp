@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a host's kernel finds of kept light by zvo/trace.glsl, against known answers and zvo's own pictures.
+// What a host's kernel finds of a radiance cache by zvo/trace.glsl, against known answers and zvo's own pictures.
 #include "glsl/host_device.h"
 #include "glsl/host_light.h"
 #include "support/lit_voxels.h"
@@ -21,7 +21,7 @@ using test::deviceOfHosts;
 using test::LitVoxel;
 using test::skyOf;
 
-// The structs of tests/glsl/host/kept_light.comp.
+// The structs of tests/glsl/host/radiance_cache.comp.
 struct Place
 {
     glm::vec3 position;
@@ -39,7 +39,7 @@ struct Light
 
 struct Push
 {
-    gpu::ConstPtr<gpu::KeptLightTable> kept;
+    gpu::ConstPtr<gpu::RadianceCacheTable> kept;
     gpu::ConstPtr<gpu::TreeTable> tree;
     gpu::ConstPtr<Place> places;
     gpu::Ptr<Light> results;
@@ -49,7 +49,7 @@ struct Push
     gpu::uint seed;
 };
 
-// Voxels with the light that is kept on them.
+// Voxels with the radiance cache on them.
 struct Lit : test::HostLight
 {
     Lit(const std::vector<LitVoxel>& voxels, std::uint32_t depth, DeviceEnvironment&& outside, const ViewCamera& view,
@@ -68,10 +68,10 @@ struct Lit : test::HostLight
         return at(places, table(), rays, reach);
     }
 
-    std::vector<Light> at(const std::vector<Place>& places, const gpu::KeptLightTable& kept, std::uint32_t rays,
+    std::vector<Light> at(const std::vector<Place>& places, const gpu::RadianceCacheTable& kept, std::uint32_t rays,
                           float reach)
     {
-        return run<Push, Light>("host/kept_light", tree, kept, places, rays, reach, gpu::uint{7});
+        return run<Push, Light>("host/radiance_cache", tree, kept, places, rays, reach, gpu::uint{7});
     }
 
     DeviceTree tree;
@@ -82,7 +82,7 @@ const LitVoxel kGrey = {{}, glm::uvec3(188), glm::vec3(0.0F)};
 
 // A white ball in an even sky receives the sky from everywhere, whether a host's surface is before or behind the faces
 // of the voxels, and whichever way it faces.
-TEST(HostKeptLight, IsTheSkyOnAConvexBody)
+TEST(HostRadianceCache, IsTheSkyOnAConvexBody)
 {
     constexpr double kRadius = 9.0;
     std::vector<LitVoxel> voxels;
@@ -132,7 +132,7 @@ constexpr float kOfBrick = 1.0F / 16.0F;
 
 // In a closed room whose walls glow, all bounces add up to the sum of a geometric series, at walls and for what stands
 // in the room without being among the voxels.
-TEST(HostKeptLight, IsThatOfAllBouncesInAGlowingRoom)
+TEST(HostRadianceCache, IsThatOfAllBouncesInAGlowingRoom)
 {
     LitVoxel wall = kGrey;
     wall.emission = glm::vec3(0.5F);
@@ -162,7 +162,7 @@ TEST(HostKeptLight, IsThatOfAllBouncesInAGlowingRoom)
 }
 
 // Above a floor in the sun, of which a box hides the half; no light but that of the sun, straight from above.
-TEST(HostKeptLight, OfTheSunIsWhereItsShadowIsNot)
+TEST(HostRadianceCache, OfTheSunIsWhereItsShadowIsNot)
 {
     std::vector<LitVoxel> voxels;
     test::addBox(voxels, {0, 0, 0}, {16, 1, 16}, kGrey);
@@ -184,8 +184,8 @@ TEST(HostKeptLight, OfTheSunIsWhereItsShadowIsNot)
     EXPECT_EQ(lights[2].met, glm::vec4(0.0F, 0.0F, 0.0F, 1.0F)) << "the sky, without the sun";
 }
 
-// Where no light is kept, shaders find none.
-TEST(HostKeptLight, IsNotFoundInAnEmptyTable)
+// Where no light is cached, shaders find none.
+TEST(HostRadianceCache, IsNotFoundInAnEmptyTable)
 {
     std::vector<LitVoxel> voxels;
     test::addBox(voxels, {2, 2, 2}, {6, 6, 6}, kWhite);
@@ -202,7 +202,7 @@ TEST(HostKeptLight, IsNotFoundInAnEmptyTable)
 }
 
 // Rays of a picture see what zvo's picture of the same light shows.
-TEST(HostKeptLight, OfHitsIsThatOfZvosPicture)
+TEST(HostRadianceCache, OfHitsIsThatOfZvosPicture)
 {
     std::vector<LitVoxel> voxels = test::roomOf(kGrey, 16);
     for (LitVoxel& voxel : voxels)

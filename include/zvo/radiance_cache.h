@@ -14,8 +14,8 @@
 namespace zvo
 {
 
-/// What light is kept for.
-struct KeptLightInfo
+/// What light is cached for.
+struct RadianceCacheInfo
 {
     // The rays of a camera that find which faces of voxels it sees, 1 to 16384 along each edge, in the proportion of
     // the host's picture. They go through other points of their pixels in each frame: a quarter of the picture's edges
@@ -27,32 +27,32 @@ struct KeptLightInfo
 };
 
 /// Options of a frame.
-struct KeptFrameInfo
+struct CachedFrameInfo
 {
     std::uint32_t rays = 1U << 14; // the most faces that get a sample: up to two rays and two shadow rays; 1 to 2^22
     std::uint32_t seed = 0;        // of the random numbers
 };
 
-/// Counts of kept light, known once a frame is done.
-struct KeptLightStats
+/// Counts of a radiance cache, known once a frame is done.
+struct RadianceCacheStats
 {
     std::uint64_t faces = 0;   // with light
     std::uint64_t refused = 0; // faces for which there was no room, each time that a ray has hit them
 };
 
-/// Light that is kept on the faces of voxels and gets better from frame to frame (docs/radiance.md), for the host's own
+/// The radiance cache and gets better from frame to frame (docs/radiance.md), for the host's own
 /// shaders: zvo/trace.glsl looks it up at any point of a surface, without a ray (docs/host-glsl.md). It follows what
 /// moves, brushes, the sun and lamps by itself. All frames in flight may use it. Move-only; throws Error{Usage} when it
 /// is used after it was moved from.
-class ZVO_API KeptLight
+class ZVO_API RadianceCache
 {
 public:
     /// Memory: 28 bytes for each ray of the camera, and 18 MB. Throws Error{Usage} for numbers out of range, and
     /// Error{Memory}.
-    explicit KeptLight(Context& context, const KeptLightInfo& info = {});
-    ~KeptLight();
-    KeptLight(KeptLight&&) noexcept;
-    KeptLight& operator=(KeptLight&&) noexcept;
+    explicit RadianceCache(Context& context, const RadianceCacheInfo& info = {});
+    ~RadianceCache();
+    RadianceCache(RadianceCache&&) noexcept;
+    RadianceCache& operator=(RadianceCache&&) noexcept;
 
     /// Records the passes of a frame: the camera's rays, then samples for faces that it sees and for those that rays of
     /// the frame before have hit. Light arrives by one reflection more with each frame. The same calls give the same
@@ -73,12 +73,12 @@ public:
     /// that was lost; then nothing is recorded. Throws Error{Memory}, and what making a kernel throws; then shaders
     /// find no light until the next call.
     void update(Recorder& recorder, const Tree& tree, Environment& environment, const CameraInfo& camera,
-                const KeptFrameInfo& info = {});
+                const CachedFrameInfo& info = {});
     void update(Recorder& recorder, DynamicTree& tree, Environment& environment, const CameraInfo& camera,
-                const KeptFrameInfo& info = {});
+                const CachedFrameInfo& info = {});
 
-    /// The address of a table for the host's shaders (zvo_KeptLightTable), which stays the same however the light is
-    /// moved. What it says means nothing before the first update() that reaches the device.
+    /// The address of a table for the host's shaders (zvo_RadianceCacheTable), which stays the same however the light
+    /// is moved. What it says means nothing before the first update() that reaches the device.
     [[nodiscard]] std::uint64_t address() const;
 
     /// Has the next update() begin anew, such as in another scene. Records nothing: shaders see what was kept until
@@ -86,7 +86,7 @@ public:
     void forget();
 
     /// Counts of the newest update() whose frame is done.
-    [[nodiscard]] KeptLightStats stats();
+    [[nodiscard]] RadianceCacheStats stats();
 
     /// Device memory of all buffers.
     [[nodiscard]] std::uint64_t bytes() const;

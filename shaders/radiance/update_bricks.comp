@@ -5,7 +5,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "radiance/radiance.h"
 
-GPU_ENTRY(RadianceFoldParams, GPU_NO_CONSTANTS);
+GPU_ENTRY(RadianceUpdateBricksParams, GPU_NO_CONSTANTS);
 layout(local_size_x = kRadianceGroup) in;
 
 #include "lib/dispatch.glsl"
@@ -13,7 +13,7 @@ layout(local_size_x = kRadianceGroup) in;
 #include "path/lists.glsl"
 #include "radiance/brick.glsl"
 #include "radiance/face_table.glsl"
-#include "radiance/kept_face.glsl"
+#include "radiance/cached_face.glsl"
 
 // The weight of the last `added` of so many samples, in a mean in which the n-th weighs as much as its number.
 float weightOfLast(uint added, uint samples)
@@ -29,7 +29,7 @@ uvec2 spreadAfter(uvec2 words, BrickSum sum, uint random)
     uint count = sum.counts / kSumOfSpread;
     uint before;
     BrickSpread spread = spreadIn(words, before);
-    uint samples = min(before + count, kKeptWeightMax);
+    uint samples = min(before + count, kCachedWeightMax);
     precise vec2 added = vec2(sum.total, sum.between) / float((1u << kSpreadShift) * max(count, 1u));
     precise vec2 mean = mix(vec2(spread.total, spread.between), added, weightOfLast(count, max(samples, 1u)));
     return count == 0u ? words : packSpread(BrickSpread(mean.x, mean.y), samples, random & 1023u);
@@ -44,7 +44,7 @@ void main()
     uint slot = params.bricks.data[index];
     BrickSum sum = params.sums.data[index];
     params.sums.data[index] = BrickSum(uvec3(0u), 0u, 0, 0);
-    KeptFace face = loadFace(slot);
+    CachedFace face = loadFace(slot);
     uvec2 own = params.states.data[slot].own;
     uint random = hashPair(hashPair(face.key.y, face.key.x), params.frame);
     params.states.data[slot] = FaceState(params.frame & kMarkFrames, 0u, spreadAfter(own, sum, random));
@@ -54,14 +54,14 @@ void main()
 
     vec3 thresholds = thresholdsOf(random);
     uint moved = sum.counts & (kSumOfSpread - kSumOfMove);
-    uint samples = min(keptWeight(face.light) + added, moved != 0u ? params.moved_window : params.window);
+    uint samples = min(cachedWeight(face.light) + added, moved != 0u ? params.moved_window : params.window);
     precise vec3 sampled = vec3(sum.light) * (stepOfBrick(face.light) / float(added));
-    precise vec3 mean = mix(keptRadiance(face.light), sampled, weightOfLast(added, samples));
-    uint64_t_Ptr(uint64_t(params.faces)).data[2u * slot + 1u] = packUint2x32(packKept(mean, samples, thresholds));
+    precise vec3 mean = mix(cachedRadiance(face.light), sampled, weightOfLast(added, samples));
+    uint64_t_Ptr(uint64_t(params.faces)).data[2u * slot + 1u] = packUint2x32(packCached(mean, samples, thresholds));
 
     if (params.level < kBrickLevels)
     {
-        KeptFace around;
+        CachedFace around;
         uint outer = findFace(cellOfFace(face.key) >> 2, normalOfFace(face.key), params.level + 1u, around);
         if (outer != kNoFace)
             addLight(params.states.data[outer].recent, stepOfBrick(around.light), sampled, thresholds,

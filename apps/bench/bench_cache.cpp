@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "bench/bench_kept.h"
+#include "bench/bench_cache.h"
 
 #include "bench/bench_runs.h"
 #include "bench/bench_scenes.h"
-#include "bench/kept_motion.h"
+#include "bench/cache_motion.h"
 #include "bench/lit_scenes.h"
 #include "bench/picture_quality.h"
 #include "bench/table.h"
@@ -35,11 +35,11 @@ namespace zvo::cli
 namespace
 {
 
-constexpr std::uint32_t kKeptDepth = 8;
-constexpr std::uint32_t kPictureFrames = 16; // of a picture of light that is kept
+constexpr std::uint32_t kCacheDepth = 8;
+constexpr std::uint32_t kPictureFrames = 16; // of a picture by the radiance cache
 
 /// A picture beside the reference.
-struct KeptRow
+struct CacheRow
 {
     std::string scene;
     std::uint32_t resolution = 0;
@@ -55,9 +55,9 @@ struct KeptRow
     std::optional<double> bytes_of_voxel; // that are kept
 };
 
-const Columns<KeptRow>& keptColumns()
+const Columns<CacheRow>& cacheColumns()
 {
-    using Row = KeptRow;
+    using Row = CacheRow;
     static const Columns<Row> all = {
         {"scene", 12, [](const Row& row) { return row.scene; }},
         {"resolution", 10, [](const Row& row) { return fmt::format("{}", row.resolution); }},
@@ -92,12 +92,12 @@ double totalOf(const std::vector<double>& values)
 }
 
 /// Makes pictures of one scene by one light.
-class KeptBench
+class CacheBench
 {
 public:
-    KeptBench(vk::HeadlessDevice& device, const LitScene& scene, const BenchKeptOptions& options)
+    CacheBench(vk::HeadlessDevice& device, const LitScene& scene, const BenchCacheOptions& options)
         : m_device(device), m_scene(scene), m_width(options.width), m_height(options.height),
-          m_kept({.faces = options.faces}), m_camera(traceCamera(scene.view, scene.tree.grid, m_height))
+          m_cache_options({.faces = options.faces}), m_camera(traceCamera(scene.view, scene.tree.grid, m_height))
     {
     }
 
@@ -128,7 +128,7 @@ public:
     }
 
     /// Primary rays with a ray to the sun.
-    KeptRow primary()
+    CacheRow primary()
     {
         TreeTracer tracer(m_device.device());
         tracer.resize(m_width, m_height);
@@ -142,17 +142,17 @@ public:
         {
             ms.push_back(sumMs(trace()));
         }
-        KeptRow row = rowOf("primary", 1);
+        CacheRow row = rowOf("primary", 1);
         row.frame_ms = medianOf(ms);
         row.total_ms = row.frame_ms;
         return row;
     }
 
-    std::vector<KeptRow> paths(const HdrImage& reference, std::span<const std::uint32_t> counts)
+    std::vector<CacheRow> paths(const HdrImage& reference, std::span<const std::uint32_t> counts)
     {
         PathTracer tracer(m_device.device());
         tracer.resize(m_width, m_height);
-        std::vector<KeptRow> rows;
+        std::vector<CacheRow> rows;
         std::vector<double> ms;
         for (const std::uint32_t count : counts)
         {
@@ -160,7 +160,7 @@ public:
             {
                 ms.push_back(addPath(tracer, {.bounces = kReferenceBounces}));
             }
-            KeptRow row = rowOf("path", count);
+            CacheRow row = rowOf("path", count);
             row.quality = compareTo(reference, imageOf(tracer.picture()));
             row.noise = m_noise;
             row.frame_ms = medianOf(ms);
@@ -170,15 +170,15 @@ public:
         return rows;
     }
 
-    /// The light that is kept after so many frames, on the faces that are seen and through cones: both pictures are of
+    /// the radiance cache after so many frames, on the faces that are seen and through cones: both pictures are of
     /// the same frames.
-    std::vector<KeptRow> kept(const HdrImage& reference, std::span<const std::uint32_t> counts, const KeptRow& path)
+    std::vector<CacheRow> cached(const HdrImage& reference, std::span<const std::uint32_t> counts, const CacheRow& path)
     {
-        const FrameOptions options = {.integrator = Integrator::Cached, .radiance = m_kept};
+        const FrameOptions options = {.integrator = Integrator::Cache, .radiance = m_cache_options};
         FrameRenderer tracer(m_device.device());
         tracer.resize(m_width, m_height);
         RadianceView cones(m_device.device(), m_width, m_height);
-        std::vector<KeptRow> rows;
+        std::vector<CacheRow> rows;
         std::vector<double> ms;
         const auto addFrame = [&]
         {
@@ -203,15 +203,15 @@ public:
                 ms.push_back(sumMs(passes));
                 cone_ms.push_back(sumMs(passes) - sumOfViews(passes) + addCones(tracer, cones));
             }
-            KeptRow row = rowOf("cached", count);
+            CacheRow row = rowOf("cache", count);
             row.frame_ms = medianOf(ms);
             row.total_ms = totalOf(ms);
-            compareKept(row, reference, tracer.samples(options), path, tracer.cache());
+            compareCached(row, reference, tracer.samples(options), path, tracer.cache());
             rows.push_back(row);
             row = rowOf("cones", count);
             row.frame_ms = medianOf(cone_ms);
             row.total_ms = settled_ms + totalOf(cone_ms);
-            compareKept(row, reference, cones.picture(), path, tracer.cache());
+            compareCached(row, reference, cones.picture(), path, tracer.cache());
             rows.push_back(row);
         }
         return rows;
@@ -220,9 +220,9 @@ public:
 private:
     static constexpr std::uint32_t kReferenceBounces = 32;
 
-    [[nodiscard]] KeptRow rowOf(std::string_view integrator, std::uint32_t count) const
+    [[nodiscard]] CacheRow rowOf(std::string_view integrator, std::uint32_t count) const
     {
-        KeptRow row;
+        CacheRow row;
         row.scene = m_scene.name;
         row.resolution = m_scene.tree.grid.resolution();
         row.light = m_scene.light_name;
@@ -232,8 +232,8 @@ private:
     }
 
     // Compares a row, of which the times are known.
-    void compareKept(KeptRow& row, const HdrImage& reference, const SampledPicture& picture, const KeptRow& path,
-                     const RadianceCache& cache)
+    void compareCached(CacheRow& row, const HdrImage& reference, const SampledPicture& picture, const CacheRow& path,
+                       const DeviceRadianceCache& cache)
     {
         row.quality = compareTo(reference, imageOf(picture));
         row.noise = m_noise;
@@ -256,7 +256,7 @@ private:
         return sumMs(m_device.run(
             [&](vk::FrameGraph& graph) {
                 cones.add(graph, tracer.cache(), m_scene.tree, m_scene.light, through, tracer.buffers(),
-                          KeptView::Cones);
+                          CacheView::Cones);
             }));
     }
 
@@ -287,21 +287,21 @@ private:
     std::uint32_t m_width;
     std::uint32_t m_height;
     std::optional<double> m_noise; // of the reference
-    RadianceOptions m_kept;
+    RadianceOptions m_cache_options;
     TraceCamera m_camera;
 };
 
-Json keptReportJson(const vk::DeviceReport& device, const BenchKeptOptions& options, const std::vector<KeptRow>& rows,
-                    std::span<const MotionResult> motion)
+Json cacheReportJson(const vk::DeviceReport& device, const BenchCacheOptions& options,
+                     const std::vector<CacheRow>& rows, std::span<const MotionResult> motion)
 {
-    Json json = headJson("zvo.bench_kept/1", device);
+    Json json = headJson("zvo.bench_cache/1", device);
     json["width"] = options.width;
     json["height"] = options.height;
     json["reference_samples"] = options.reference_samples;
     json["faces_of_frame"] = options.faces;
     json["picture_frames"] = kPictureFrames;
     json["rows"] = Json::array();
-    for (const KeptRow& row : rows)
+    for (const CacheRow& row : rows)
     {
         Json entry = {{"scene", row.scene},           {"resolution", row.resolution}, {"light", row.light},
                       {"integrator", row.integrator}, {"samples", row.count},         {"frame_ms", row.frame_ms},
@@ -332,22 +332,22 @@ Json keptReportJson(const vk::DeviceReport& device, const BenchKeptOptions& opti
     return json;
 }
 
-std::string keptTable(const vk::DeviceReport& device, const BenchKeptOptions& options, const std::vector<KeptRow>& rows,
-                      std::span<const MotionResult> motion)
+std::string cacheTable(const vk::DeviceReport& device, const BenchCacheOptions& options,
+                       const std::vector<CacheRow>& rows, std::span<const MotionResult> motion)
 {
     std::string text =
         fmt::format("zvo {} on {} ({}, {}). Pictures of {} x {} pixels beside one of {} paths a pixel with another "
-                    "seed. Light that is kept is sampled on {} faces a frame.\n\n",
+                    "seed. The radiance cache is sampled on {} faces a frame.\n\n",
                     ZVO_VERSION_TEXT, device.name, device.type, device.driver, options.width, options.height,
                     options.reference_samples, options.faces);
     if (!rows.empty())
     {
         text += fmt::format("A picture of it is {} frames behind those that are named; through cones, of the same "
                             "frames. GPU milliseconds.\n\n{}",
-                            kPictureFrames, columnNames(keptColumns()));
-        for (const KeptRow& row : rows)
+                            kPictureFrames, columnNames(cacheColumns()));
+        for (const CacheRow& row : rows)
         {
-            text += columnValues(keptColumns(), row);
+            text += columnValues(cacheColumns(), row);
         }
     }
     if (!motion.empty())
@@ -359,13 +359,13 @@ std::string keptTable(const vk::DeviceReport& device, const BenchKeptOptions& op
 
 } // namespace
 
-void benchKept(const BenchKeptOptions& options)
+void benchCache(const BenchCacheOptions& options)
 {
     constexpr std::array<std::uint32_t, 3> kPathCounts = {1, 4, 16};
     constexpr std::array<std::uint32_t, 3> kFrameCounts = {16, 64, 256};
-    const std::vector<std::uint32_t> depths = {kKeptDepth};
+    const std::vector<std::uint32_t> depths = {kCacheDepth};
     std::optional<Output> report = openReport(options.output);
-    BenchKeptOptions still = options;
+    BenchCacheOptions still = options;
     still.scenes = benchScenes(options, true);
     std::vector<std::filesystem::path> scene_files;
     std::ranges::copy_if(still.scenes, std::back_inserter(scene_files), isSceneFile);
@@ -373,35 +373,35 @@ void benchKept(const BenchKeptOptions& options)
     const std::vector<MovingScene> moving = loadMovingScenes(options, scene_files);
     const bool has_still = !still.scenes.empty(); // else it would be the usual ones
     vk::HeadlessDevice device(headlessOptions(options.device), zvoKernels());
-    std::vector<KeptRow> rows;
+    std::vector<CacheRow> rows;
     Progress progress((has_still ? litSceneCount(still, depths) : 0) + motionCount(options, moving));
     const auto measureStill = [&](LitScene& scene)
     {
         progress.begin(fmt::format("{} by {}", scene.name, scene.light_name));
-        KeptBench bench(device, scene, options);
+        CacheBench bench(device, scene, options);
         const HdrImage reference =
             bench.reference(options.reference_samples, [&](std::uint32_t samples)
                             { progress.within(static_cast<double>(samples) / options.reference_samples); });
         rows.push_back(bench.primary());
-        const std::vector<KeptRow> paths = bench.paths(reference, kPathCounts);
+        const std::vector<CacheRow> paths = bench.paths(reference, kPathCounts);
         rows.insert(rows.end(), paths.begin(), paths.end());
-        const std::vector<KeptRow> kept = bench.kept(reference, kFrameCounts, paths.back());
-        rows.insert(rows.end(), kept.begin(), kept.end());
+        const std::vector<CacheRow> cached = bench.cached(reference, kFrameCounts, paths.back());
+        rows.insert(rows.end(), cached.begin(), cached.end());
     };
     if (has_still)
     {
         forEachLitScene(device, still, depths, static_cast<double>(options.width) / options.height, measureStill);
     }
-    const std::vector<MotionResult> motion = measureMotion(device, options, moving, kKeptDepth, progress);
+    const std::vector<MotionResult> motion = measureMotion(device, options, moving, kCacheDepth, progress);
     clearProgressBar();
     if (options.output.json != "-")
     {
-        Output("-", true).write(keptTable(device.device().report(), options, rows, motion));
+        Output("-", true).write(cacheTable(device.device().report(), options, rows, motion));
     }
     checkValidation(device);
     if (report)
     {
-        writeReport(*report, keptReportJson(device.device().report(), options, rows, motion));
+        writeReport(*report, cacheReportJson(device.device().report(), options, rows, motion));
     }
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Light that is kept on voxels, and pictures of it, on the device that the tests of a binary share.
+// The radiance cache, and pictures of it, on the device that the tests of a binary share.
 #pragma once
 
 #include "core/frame/frame_renderer.h"
@@ -37,15 +37,15 @@ struct FaceLight
 };
 
 /// All faces of a table, or all bricks of a level, read without the code of the kernels. Cells are those of the level.
-std::map<FaceName, FaceLight> facesOf(std::span<const gpu::KeptFace> table, std::uint32_t level = 0);
-std::map<FaceName, FaceLight> facesOf(RadianceCache& cache, std::uint32_t level = 0);
+std::map<FaceName, FaceLight> facesOf(std::span<const gpu::CachedFace> table, std::uint32_t level = 0);
+std::map<FaceName, FaceLight> facesOf(DeviceRadianceCache& cache, std::uint32_t level = 0);
 
-/// Options of a picture of light that is kept.
-FrameOptions cachedOptions(const RadianceOptions& radiance = {}, KeptView kind = KeptView::Faces);
+/// Options of a picture by the radiance cache.
+FrameOptions cachedOptions(const RadianceOptions& radiance = {}, CacheView kind = CacheView::Faces);
 
 /// Runs frames of a tracer, which has a size.
 void runFrames(FrameRenderer& tracer, const DeviceTree& tree, DeviceEnvironment& environment, const ViewCamera& view,
-               std::uint32_t count, const RadianceOptions& options, KeptView kind = KeptView::Faces);
+               std::uint32_t count, const RadianceOptions& options, CacheView kind = CacheView::Faces);
 
 /// The mean of a tracer's picture. Expects that no ray was given up.
 PathPicture pictureOf(FrameRenderer& tracer);
@@ -53,6 +53,6 @@ PathPicture pictureOf(FrameRenderer& tracer);
 /// The mean of the last `frames` frames after `settle` frames, in a picture of edge * edge pixels.
 PathPicture settledPicture(FrameRenderer& tracer, const DeviceTree& tree, DeviceEnvironment& environment,
                            const ViewCamera& view, std::uint32_t edge, std::uint32_t settle, std::uint32_t frames,
-                           const RadianceOptions& options = {}, KeptView kind = KeptView::Faces);
+                           const RadianceOptions& options = {}, CacheView kind = CacheView::Faces);
 
 } // namespace zvo::test

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-#include "zvo/kept_light.h"
+#include "zvo/radiance_cache.h"
 
 #include "api/camera.h"
 #include "api/checked.h"
 #include "api/dynamic_tree_impl.h"
 #include "api/environment_impl.h"
-#include "api/kept_light_impl.h"
+#include "api/radiance_cache_impl.h"
 #include "api/tree_impl.h"
-#include "core/radiance/kept_light_table.h"
+#include "core/radiance/radiance_cache_table.h"
 
 #include <cstddef>
 #include <deque>
@@ -27,15 +27,15 @@ constexpr std::size_t kCounts = 2;
 
 } // namespace
 
-KeptLight::Impl::Impl(Context::Impl& context_impl, const KeptLightInfo& light_info)
+RadianceCache::Impl::Impl(Context::Impl& context_impl, const RadianceCacheInfo& light_info)
     : context(context_impl), info(checked(light_info)),
       renderer(std::make_unique<FrameRenderer>(context.device, &context.deletion_queue)),
-      table(context.device, "kept light table", 1)
+      table(context.device, "radiance cache table", 1)
 {
     renderer->resize(info.width, info.height);
 }
 
-KeptLight::Impl::~Impl()
+RadianceCache::Impl::~Impl()
 {
     context.deleteLater(std::move(renderer));
     context.deleteLater(std::move(table));
@@ -46,8 +46,8 @@ KeptLight::Impl::~Impl()
 }
 
 template <typename AnyTree>
-void KeptLight::Impl::update(Recorder& recorder, AnyTree& any_tree, Environment& any_environment,
-                             const CameraInfo& camera_info, const KeptFrameInfo& frame_info)
+void RadianceCache::Impl::update(Recorder& recorder, AnyTree& any_tree, Environment& any_environment,
+                                 const CameraInfo& camera_info, const CachedFrameInfo& frame_info)
 {
     Environment::Impl& environment = usable(any_environment);
     requireSame(context, recorder.impl().context, environment.context);
@@ -55,7 +55,7 @@ void KeptLight::Impl::update(Recorder& recorder, AnyTree& any_tree, Environment&
     const DeviceTree& tree = shown.tree;
     const TraceCamera camera = traceCamera(viewOf(camera_info), tree.grid, info.height);
     FrameOptions options;
-    options.integrator = Integrator::Cached;
+    options.integrator = Integrator::Cache;
     options.radiance = {.faces = checked(frame_info).rays, .seed = frame_info.seed};
     recording(recorder,
               [&](Recorder::Impl& impl)
@@ -76,7 +76,7 @@ void KeptLight::Impl::update(Recorder& recorder, AnyTree& any_tree, Environment&
                           renderer->cache().reserveFaces(info.faces);
                       }
                       renderer->settle(impl.graph, {tree, camera, &environment.light}, options);
-                      publish(impl.graph, keptLightTable(renderer->cache(), environment.light));
+                      publish(impl.graph, radianceCacheTable(renderer->cache(), environment.light));
                       report(impl);
                   }
                   catch (...) // buffers may have been replaced, and hold no light that is complete
@@ -89,7 +89,7 @@ void KeptLight::Impl::update(Recorder& recorder, AnyTree& any_tree, Environment&
 }
 
 // Tells the cache what it does not see itself.
-void KeptLight::Impl::follow(const Shown& now)
+void RadianceCache::Impl::follow(const Shown& now)
 {
     const std::optional<Shown> before = std::exchange(m_shown, now);
     if (before && !(before->grid == now.grid))
@@ -102,13 +102,13 @@ void KeptLight::Impl::follow(const Shown& now)
     }
 }
 
-void KeptLight::Impl::publish(vk::FrameGraph& graph, const gpu::KeptLightTable& values)
+void RadianceCache::Impl::publish(vk::FrameGraph& graph, const gpu::RadianceCacheTable& values)
 {
     graph.update(table, 0, std::span(&values, 1));
 }
 
 // Records the copy of the frame's counts to the host.
-void KeptLight::Impl::report(Recorder::Impl& recorder)
+void RadianceCache::Impl::report(Recorder::Impl& recorder)
 {
     vk::BufferOf<gpu::uint> counts;
     if (!m_free_counts.empty())
@@ -118,7 +118,7 @@ void KeptLight::Impl::report(Recorder::Impl& recorder)
     }
     else
     {
-        counts = {context.device, "kept light counts", kCounts, vk::MemoryKind::Readback};
+        counts = {context.device, "radiance cache counts", kCounts, vk::MemoryKind::Readback};
     }
     recorder.graph.copy(renderer->cache().counters(), 0, counts, 0, counts.bytes());
     recorder.graph.releaseToHost(); // what learn() reads
@@ -126,7 +126,7 @@ void KeptLight::Impl::report(Recorder::Impl& recorder)
 }
 
 // Takes the counts of frames that are done.
-void KeptLight::Impl::learn()
+void RadianceCache::Impl::learn()
 {
     while (!m_reports.empty() && (m_reports.front().frame->is_done || m_reports.front().frame->is_lost))
     {
@@ -141,53 +141,54 @@ void KeptLight::Impl::learn()
     }
 }
 
-void KeptLight::Impl::requireShown(const DeviceTree& tree) const
+void RadianceCache::Impl::requireShown(const DeviceTree& tree) const
 {
     if (!m_shown || m_shown->version != tree.version || (m_frame && m_frame->is_lost) ||
         renderer->cache().frameCount() == 0)
     {
-        throw Error(ErrorCode::Usage, "no light is kept for this tree as it is: KeptLight::update() comes first");
+        throw Error(ErrorCode::Usage, "no light is cached for this tree as it is: RadianceCache::update() comes first");
     }
 }
 
-KeptLight::KeptLight(Context& context, const KeptLightInfo& info) : m_impl(std::make_unique<Impl>(context.impl(), info))
+RadianceCache::RadianceCache(Context& context, const RadianceCacheInfo& info)
+    : m_impl(std::make_unique<Impl>(context.impl(), info))
 {
 }
 
-KeptLight::~KeptLight() = default;
-KeptLight::KeptLight(KeptLight&&) noexcept = default;
-KeptLight& KeptLight::operator=(KeptLight&&) noexcept = default;
+RadianceCache::~RadianceCache() = default;
+RadianceCache::RadianceCache(RadianceCache&&) noexcept = default;
+RadianceCache& RadianceCache::operator=(RadianceCache&&) noexcept = default;
 
-void KeptLight::update(Recorder& recorder, const Tree& tree, Environment& environment, const CameraInfo& camera,
-                       const KeptFrameInfo& info)
-{
-    usable(*this).update(recorder, tree, environment, camera, info);
-}
-
-void KeptLight::update(Recorder& recorder, DynamicTree& tree, Environment& environment, const CameraInfo& camera,
-                       const KeptFrameInfo& info)
+void RadianceCache::update(Recorder& recorder, const Tree& tree, Environment& environment, const CameraInfo& camera,
+                           const CachedFrameInfo& info)
 {
     usable(*this).update(recorder, tree, environment, camera, info);
 }
 
-std::uint64_t KeptLight::address() const
+void RadianceCache::update(Recorder& recorder, DynamicTree& tree, Environment& environment, const CameraInfo& camera,
+                           const CachedFrameInfo& info)
+{
+    usable(*this).update(recorder, tree, environment, camera, info);
+}
+
+std::uint64_t RadianceCache::address() const
 {
     return usable(*this).table.address();
 }
 
-void KeptLight::forget()
+void RadianceCache::forget()
 {
     usable(*this).renderer->cache().forget();
 }
 
-KeptLightStats KeptLight::stats()
+RadianceCacheStats RadianceCache::stats()
 {
     Impl& light = usable(*this);
     light.learn();
     return light.newest;
 }
 
-std::uint64_t KeptLight::bytes() const
+std::uint64_t RadianceCache::bytes() const
 {
     const Impl& light = usable(*this);
     return light.renderer->bytes() + light.table.bytes();

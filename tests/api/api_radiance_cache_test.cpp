@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Light that is kept on voxels, as a host has it in the course of its frames.
+// The radiance cache, as a host has it in the course of its frames.
 #include "api/context_impl.h"
 #include "api_paths.h"
 #include "api_scene.h"
@@ -10,7 +10,7 @@
 #include "host_kernel.h"
 #include "support/engine_device.h"
 #include "support/failing_vulkan.h"
-#include "support/kept_light.h"
+#include "support/radiance_cache.h"
 #include "zvo/error.h"
 
 #include <gtest/gtest.h>
@@ -36,10 +36,10 @@ using test::FaceLight;
 using test::FaceName;
 using Faces = std::map<FaceName, FaceLight>;
 
-constexpr KeptLightInfo kGrid = {.width = 48, .height = 36, .faces = 20000};
+constexpr RadianceCacheInfo kGrid = {.width = 48, .height = 36, .faces = 20000};
 constexpr std::uint32_t kSlots = 40000; // more than there are
 
-// Push constants of tests/glsl/host/kept_faces.comp.
+// Push constants of tests/glsl/host/cached_faces.comp.
 struct FacesPush
 {
     std::uint64_t kept;
@@ -48,7 +48,7 @@ struct FacesPush
     std::uint32_t unused;
 };
 
-// What a shader of the host's finds by the address of kept light.
+// What a shader of the host's finds by the address of a radiance cache.
 struct Found
 {
     std::uint32_t run_count = 0;
@@ -127,17 +127,17 @@ public:
 private:
     DeviceEnvironment m_sky{test::device().device()};
     TreeTracer m_tracer{test::device().device()};
-    RadianceCache m_cache{test::device().device()};
+    DeviceRadianceCache m_cache{test::device().device()};
 };
 
-class ApiKeptLight : public test::ApiPaths
+class ApiRadianceCache : public test::ApiPaths
 {
 protected:
     static void SetUpTestSuite()
     {
         test::ApiPaths::SetUpTestSuite();
-        s_copy = std::make_unique<test::HostKernel>(s_host->device, "host/kept_faces", sizeof(FacesPush));
-        s_copied = std::make_unique<test::HostBuffer>(s_host->device, (1 + kSlots) * sizeof(gpu::KeptFace));
+        s_copy = std::make_unique<test::HostKernel>(s_host->device, "host/cached_faces", sizeof(FacesPush));
+        s_copied = std::make_unique<test::HostBuffer>(s_host->device, (1 + kSlots) * sizeof(gpu::CachedFace));
     }
 
     static void TearDownTestSuite()
@@ -148,8 +148,8 @@ protected:
     }
 
     template <typename AnyTree>
-    void frames(KeptLight& light, AnyTree& tree, Environment& environment, std::uint32_t count,
-                const KeptFrameInfo& info = {})
+    void frames(RadianceCache& light, AnyTree& tree, Environment& environment, std::uint32_t count,
+                const CachedFrameInfo& info = {})
     {
         for (std::uint32_t i = 0; i < count; ++i)
         {
@@ -159,7 +159,7 @@ protected:
     }
 
     // Records what finds the light by its address, behind what has been recorded.
-    static void find(Recorder& recorder, VkCommandBuffer commands, const KeptLight& light)
+    static void find(Recorder& recorder, VkCommandBuffer commands, const RadianceCache& light)
     {
         recorder.makeVisible(VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT);
         const FacesPush push = {light.address(), s_copied->address(), kSlots, 0};
@@ -168,11 +168,11 @@ protected:
 
     static Found found()
     {
-        const std::span table(static_cast<const gpu::KeptFace*>(s_copied->mapped()), 1 + kSlots);
+        const std::span table(static_cast<const gpu::CachedFace*>(s_copied->mapped()), 1 + kSlots);
         return {table[0].key.x, table[0].key.y, test::facesOf(table.subspan(1))};
     }
 
-    Found found(const KeptLight& light)
+    Found found(const RadianceCache& light)
     {
         m_host.frame([&](Recorder& recorder, VkCommandBuffer commands) { find(recorder, commands, light); });
         return found();
@@ -182,10 +182,10 @@ protected:
     static std::unique_ptr<test::HostBuffer> s_copied;
 };
 
-std::unique_ptr<test::HostKernel> ApiKeptLight::s_copy;
-std::unique_ptr<test::HostBuffer> ApiKeptLight::s_copied;
+std::unique_ptr<test::HostKernel> ApiRadianceCache::s_copy;
+std::unique_ptr<test::HostBuffer> ApiRadianceCache::s_copied;
 
-TEST_F(ApiKeptLight, IsThatOfTheEngineOfOctreesAndDags)
+TEST_F(ApiRadianceCache, IsThatOfTheEngineOfOctreesAndDags)
 {
     Tree tree = octree();
     Environment environment = sky();
@@ -199,7 +199,7 @@ TEST_F(ApiKeptLight, IsThatOfTheEngineOfOctreesAndDags)
         {
             tree = m_host.compress(std::move(tree));
         }
-        KeptLight light(m_host.context, kGrid);
+        RadianceCache light(m_host.context, kGrid);
         frames(light, tree, environment, 12, {.rays = 700, .seed = 3});
         const Found found = this->found(light);
         EXPECT_EQ(found.frame_count, 12U);
@@ -213,23 +213,23 @@ TEST_F(ApiKeptLight, IsThatOfTheEngineOfOctreesAndDags)
     }
 }
 
-TEST_F(ApiKeptLight, PicturesAreThoseOfTheEngine)
+TEST_F(ApiRadianceCache, PicturesAreThoseOfTheEngine)
 {
     const std::uint32_t width = m_host.kWidth; // larger than the light's own grid
     const std::uint32_t height = m_host.kHeight;
     const Tree tree = octree();
     Environment environment = sky();
-    KeptLight light(m_host.context, kGrid);
+    RadianceCache light(m_host.context, kGrid);
     Tracer tracer(m_host.context, width, height, kFormat);
     test::TargetImage image(m_host.device, kFormat, width, height);
-    const auto traceOf = [&](const Tree& of, const CameraInfo& camera, const KeptPictureInfo& info)
+    const auto traceOf = [&](const Tree& of, const CameraInfo& camera, const CachedPictureInfo& info)
     {
         return m_host.picture(image, [&](Recorder& recorder, const ImageTarget& target)
-                              { tracer.traceKept(recorder, of, environment, light, camera, info, target); });
+                              { tracer.traceCached(recorder, of, environment, light, camera, info, target); });
     };
-    const auto trace = [&](const CameraInfo& camera, const KeptPictureInfo& info)
+    const auto trace = [&](const CameraInfo& camera, const CachedPictureInfo& info)
     { return traceOf(tree, camera, info); };
-    expectUsage([&] { trace(test::apiCamera(), {}); }, "KeptLight::update() comes first");
+    expectUsage([&] { trace(test::apiCamera(), {}); }, "RadianceCache::update() comes first");
     frames(light, tree, environment, 6);
     KeptEngine engine;
     const DeviceTree expected = test::engineOctree(test::device(), test::apiScene(), test::apiGrid(5));
@@ -239,18 +239,18 @@ TEST_F(ApiKeptLight, PicturesAreThoseOfTheEngine)
     const CameraInfo beside = CameraInfo::lookAt({21, 17.5, 25}, {5, 5, 5}, 0.6);
     EXPECT_EQ(trace(beside, {.automatic_exposure = false, .exposure = 0.5F}),
               engine.picture(expected, {21, 17.5, 25}, width, height, {false, 0.5F}));
-    expectUsage([&] { trace(test::apiCamera(), {.exposure = -1}); }, "KeptPictureInfo::exposure");
+    expectUsage([&] { trace(test::apiCamera(), {.exposure = -1}); }, "CachedPictureInfo::exposure");
     const Tree other = octree(4);
-    expectUsage([&] { traceOf(other, test::apiCamera(), {}); }, "KeptLight::update() comes first");
+    expectUsage([&] { traceOf(other, test::apiCamera(), {}); }, "RadianceCache::update() comes first");
     m_host.lostFrame([&](Recorder& recorder) { light.update(recorder, tree, environment, test::apiCamera()); });
-    expectUsage([&] { trace(test::apiCamera(), {}); }, "KeptLight::update() comes first");
+    expectUsage([&] { trace(test::apiCamera(), {}); }, "RadianceCache::update() comes first");
 }
 
-TEST_F(ApiKeptLight, StaysAtItsAddressWhenItMoves)
+TEST_F(ApiRadianceCache, StaysAtItsAddressWhenItMoves)
 {
     const Tree tree = octree();
     Environment environment = sky();
-    KeptLight light(m_host.context, kGrid);
+    RadianceCache light(m_host.context, kGrid);
     frames(light, tree, environment, 6);
     const std::uint64_t address = light.address();
     const Found before = found(light);
@@ -271,14 +271,14 @@ TEST_F(ApiKeptLight, StaysAtItsAddressWhenItMoves)
     EXPECT_LT(same_count, before.faces.size());
 }
 
-TEST_F(ApiKeptLight, FramesInFlightAreThoseOfFramesThatAreWaitedFor)
+TEST_F(ApiRadianceCache, FramesInFlightAreThoseOfFramesThatAreWaitedFor)
 {
     const Tree tree = octree();
     Environment environment = sky();
-    KeptLight waited(m_host.context, kGrid);
+    RadianceCache waited(m_host.context, kGrid);
     frames(waited, tree, environment, 4);
     const Found expected = found(waited);
-    KeptLight light(m_host.context, kGrid);
+    RadianceCache light(m_host.context, kGrid);
     for (int i = 0; i < 4; ++i)
     {
         VkCommandBuffer commands = m_host.device.begin();
@@ -297,11 +297,11 @@ TEST_F(ApiKeptLight, FramesInFlightAreThoseOfFramesThatAreWaitedFor)
 }
 
 // The host reads counts of a frame that is done, for which the fence alone does not suffice.
-TEST_F(ApiKeptLight, TheHostSeesItsCounts)
+TEST_F(ApiRadianceCache, TheHostSeesItsCounts)
 {
     const Tree tree = octree(4);
     Environment environment = sky();
-    KeptLight light(m_host.context, kGrid);
+    RadianceCache light(m_host.context, kGrid);
     m_host.frame(
         [&](Recorder& recorder)
         {
@@ -313,15 +313,15 @@ TEST_F(ApiKeptLight, TheHostSeesItsCounts)
     EXPECT_GT(light.stats().faces, 0U);
 }
 
-TEST_F(ApiKeptLight, BeginsAnewAfterALostFrameAndInAnotherGrid)
+TEST_F(ApiRadianceCache, BeginsAnewAfterALostFrameAndInAnotherGrid)
 {
     const Tree tree = octree();
     const Tree coarse = octree(4);
     Environment environment = sky();
-    KeptLight fresh(m_host.context, kGrid);
+    RadianceCache fresh(m_host.context, kGrid);
     frames(fresh, tree, environment, 1);
     const Found expected = found(fresh);
-    KeptLight light(m_host.context, kGrid);
+    RadianceCache light(m_host.context, kGrid);
     frames(light, tree, environment, 3);
     m_host.lostFrame([&](Recorder& recorder) { light.update(recorder, tree, environment, test::apiCamera()); });
     EXPECT_EQ(found(light).frame_count, 3U) << "what shaders find is that of the last frame that was not lost";
@@ -338,13 +338,13 @@ TEST_F(ApiKeptLight, BeginsAnewAfterALostFrameAndInAnotherGrid)
 }
 
 // Brushes, other lamps and another sun change light that nothing else tells of.
-TEST_F(ApiKeptLight, SeesWhatChangesByItself)
+TEST_F(ApiRadianceCache, SeesWhatChangesByItself)
 {
     DynamicTreeInfo info;
     info.emission_scale = m_host.upload(test::pathModel().info()).emissionScale();
     DynamicTree tree = m_host.make<DynamicTree>(octree(3), info);
     Environment environment = sky();
-    KeptLight light(m_host.context, kGrid);
+    RadianceCache light(m_host.context, kGrid);
     const auto settledAfter = [&](const std::function<void()>& change)
     {
         frames(light, tree, environment, 40);
@@ -367,7 +367,7 @@ TEST_F(ApiKeptLight, SeesWhatChangesByItself)
 }
 
 // A tree that takes the place of another one, in its object and perhaps in its memory, is another tree.
-TEST_F(ApiKeptLight, FollowsADynamicTreeThatIsMadeAnew)
+TEST_F(ApiRadianceCache, FollowsADynamicTreeThatIsMadeAnew)
 {
     Scene bright = test::apiScene();
     for (Material& material : bright.materials)
@@ -386,7 +386,7 @@ TEST_F(ApiKeptLight, FollowsADynamicTreeThatIsMadeAnew)
                      { tree.emplace(recorder, std::move(fixed), DynamicTreeInfo{.emission_scale = scale}); });
     };
     Environment environment = sky();
-    const auto light_after = [&](KeptLight& light, std::uint32_t count)
+    const auto light_after = [&](RadianceCache& light, std::uint32_t count)
     {
         frames(light, *tree, environment, count);
         double sum = 0.0;
@@ -397,7 +397,7 @@ TEST_F(ApiKeptLight, FollowsADynamicTreeThatIsMadeAnew)
         }
         return sum;
     };
-    KeptLight light(m_host.context, kGrid);
+    RadianceCache light(m_host.context, kGrid);
     make(test::pathModel());
     const double before = light_after(light, 300);
     const void* const first = tree->impl(); // whose memory another tree may get
@@ -406,18 +406,18 @@ TEST_F(ApiKeptLight, FollowsADynamicTreeThatIsMadeAnew)
         make(bright_model);
     }
     const double after = light_after(light, 32);
-    KeptLight fresh(m_host.context, kGrid);
+    RadianceCache fresh(m_host.context, kGrid);
     const double expected = light_after(fresh, 100);
     EXPECT_GT(expected, 2.0 * before);
     EXPECT_GT(after, 0.5 * (before + expected)) << before << " before, " << expected << " in the end";
 }
 
-TEST_F(ApiKeptLight, MayGoWhileFramesUseIt)
+TEST_F(ApiRadianceCache, MayGoWhileFramesUseIt)
 {
     const Tree tree = octree(4);
     Environment environment = sky();
     const std::uint64_t before = m_host.context.memory().used;
-    auto light = std::make_unique<KeptLight>(m_host.context, kGrid);
+    auto light = std::make_unique<RadianceCache>(m_host.context, kGrid);
     VkCommandBuffer commands = m_host.device.begin();
     {
         Recorder recorder(m_host.context, commands, ++m_host.last_frame);
@@ -434,17 +434,17 @@ TEST_F(ApiKeptLight, MayGoWhileFramesUseIt)
     EXPECT_GT(found().faces.size(), 100U);
 }
 
-TEST_F(ApiKeptLight, ShadersFindNothingAfterACallThatFailed)
+TEST_F(ApiRadianceCache, ShadersFindNothingAfterACallThatFailed)
 {
     const Tree tree = octree(4);
     Environment environment = sky();
-    KeptLight fresh(m_host.context, kGrid);
+    RadianceCache fresh(m_host.context, kGrid);
     frames(fresh, tree, environment, 1);
     const Found expected = found(fresh);
     std::uint64_t failures = 0;
     for (std::uint64_t number = 0;; ++number)
     {
-        KeptLight light(m_host.context, kGrid);
+        RadianceCache light(m_host.context, kGrid);
         m_host.submits_failed = number % 2 == 0;
         test::failCallOf("vkCreateBuffer", number);
         try
@@ -470,24 +470,24 @@ TEST_F(ApiKeptLight, ShadersFindNothingAfterACallThatFailed)
     EXPECT_GE(failures, 10U);
 }
 
-TEST_F(ApiKeptLight, WhatIsNotValidIsRefused)
+TEST_F(ApiRadianceCache, WhatIsNotValidIsRefused)
 {
-    const auto make = [&](const KeptLightInfo& info)
-    { return [&, info] { const KeptLight light(m_host.context, info); }; };
+    const auto make = [&](const RadianceCacheInfo& info)
+    { return [&, info] { const RadianceCache light(m_host.context, info); }; };
     expectUsage(make({.width = 0}), "not 0");
     expectUsage(make({.height = 16385}), "not 16385");
-    expectUsage(make({.faces = (std::uint64_t{1} << 29) + 1}), "KeptLightInfo::faces is 536870913");
+    expectUsage(make({.faces = (std::uint64_t{1} << 29) + 1}), "RadianceCacheInfo::faces is 536870913");
     const Tree tree = octree(4);
     Environment environment = sky();
-    KeptLight light(m_host.context, kGrid);
-    const auto refused = [&](const CameraInfo& camera, const KeptFrameInfo& info, const std::string& word)
+    RadianceCache light(m_host.context, kGrid);
+    const auto refused = [&](const CameraInfo& camera, const CachedFrameInfo& info, const std::string& word)
     {
         m_host.frame([&](Recorder& recorder)
                      { expectUsage([&] { light.update(recorder, tree, environment, camera, info); }, word); });
     };
     CameraInfo camera = test::apiCamera();
-    refused(camera, {.rays = 0}, "KeptFrameInfo::rays is 0");
-    refused(camera, {.rays = (1U << 22) + 1}, "KeptFrameInfo::rays is 4194305");
+    refused(camera, {.rays = 0}, "CachedFrameInfo::rays is 0");
+    refused(camera, {.rays = (1U << 22) + 1}, "CachedFrameInfo::rays is 4194305");
     camera.up = camera.forward;
     refused(camera, {}, "camera");
 
@@ -499,8 +499,8 @@ TEST_F(ApiKeptLight, WhatIsNotValidIsRefused)
     expectUsage([&] { frames(light, tree, foreign, 1); }, "two contexts");
     frames(light, tree, environment, 1);
 
-    KeptLight taken(std::move(light));
-    const std::string empty = "kept light was taken over or moved from";
+    RadianceCache taken(std::move(light));
+    const std::string empty = "radiance cache was taken over or moved from";
     expectUsage([&] { frames(light, tree, environment, 1); }, empty);
     expectUsage([&] { (void)light.address(); }, empty);
     expectUsage([&] { (void)light.stats(); }, empty);

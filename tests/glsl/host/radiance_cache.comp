@@ -31,7 +31,7 @@ layout(buffer_reference, scalar, buffer_reference_align = 4) writeonly buffer Li
 
 layout(push_constant, scalar) uniform Push
 {
-    zvo_KeptLightTable_ConstPtr kept;
+    zvo_RadianceCacheTable_ConstPtr kept;
     zvo_TreeTable_ConstPtr tree;
     Places places;
     Lights results;
@@ -51,7 +51,7 @@ void main()
     light.irradiance = zvo_irradiance(kept, tree, at.position, at.normal);
     light.gathered = zvo_gatherIrradiance(kept, tree, at.position, at.normal, rays, seed + i);
     zvo_Hit hit = zvo_trace(tree, at.position, at.direction, 0.0, zvo_kTraceTimeMax);
-    light.met = zvo_keptRadiance(kept, tree, hit, at.position, at.direction);
+    light.met = zvo_cachedRadiance(kept, tree, hit, at.position, at.direction);
     light.open = zvo_occlusion(tree, at.position, at.normal, rays, reach, seed + i);
     results.light[i] = light;
 }

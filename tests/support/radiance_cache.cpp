@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "support/kept_light.h"
+#include "support/radiance_cache.h"
 
 #include "core/path/strips.h"
 #include "support/engine_device.h"
@@ -11,15 +11,15 @@
 namespace zvo::test
 {
 
-std::map<FaceName, FaceLight> facesOf(RadianceCache& cache, std::uint32_t level)
+std::map<FaceName, FaceLight> facesOf(DeviceRadianceCache& cache, std::uint32_t level)
 {
     return facesOf(device().download(cache.faces()), level);
 }
 
-std::map<FaceName, FaceLight> facesOf(std::span<const gpu::KeptFace> table, std::uint32_t level)
+std::map<FaceName, FaceLight> facesOf(std::span<const gpu::CachedFace> table, std::uint32_t level)
 {
     std::map<FaceName, FaceLight> faces;
-    for (const gpu::KeptFace& kept : table)
+    for (const gpu::CachedFace& kept : table)
     {
         if (kept.key.x == 0)
         {
@@ -43,16 +43,16 @@ std::map<FaceName, FaceLight> facesOf(std::span<const gpu::KeptFace> table, std:
     return faces;
 }
 
-FrameOptions cachedOptions(const RadianceOptions& radiance, KeptView kind)
+FrameOptions cachedOptions(const RadianceOptions& radiance, CacheView kind)
 {
     FrameOptions options;
-    options.integrator = kind == KeptView::Cones ? Integrator::Cones : Integrator::Cached;
+    options.integrator = kind == CacheView::Cones ? Integrator::Cones : Integrator::Cache;
     options.radiance = radiance;
     return options;
 }
 
 void runFrames(FrameRenderer& tracer, const DeviceTree& tree, DeviceEnvironment& environment, const ViewCamera& view,
-               std::uint32_t count, const RadianceOptions& options, KeptView kind)
+               std::uint32_t count, const RadianceOptions& options, CacheView kind)
 {
     const TraceCamera camera = traceCamera(view, tree.grid, tracer.buffers().height);
     for (std::uint32_t i = 0; i < count; ++i)
@@ -85,7 +85,7 @@ PathPicture pictureOf(FrameRenderer& tracer)
 
 PathPicture settledPicture(FrameRenderer& tracer, const DeviceTree& tree, DeviceEnvironment& environment,
                            const ViewCamera& view, std::uint32_t edge, std::uint32_t settle, std::uint32_t frames,
-                           const RadianceOptions& options, KeptView kind)
+                           const RadianceOptions& options, CacheView kind)
 {
     tracer.resize(edge, edge);
     runFrames(tracer, tree, environment, view, settle, options);

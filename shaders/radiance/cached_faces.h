@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// What shaders need to know to find the light that is kept on a face (radiance/radiance.h). Those of hosts get it by
-// its address (host/kept_light.glsl).
-#ifndef ZVO_SHADERS_RADIANCE_KEPT_FACES_H
-#define ZVO_SHADERS_RADIANCE_KEPT_FACES_H
+// What shaders need to know to find the cached light of a face (radiance/radiance.h). Those of hosts get it by
+// its address (host/radiance_cache.glsl).
+#ifndef ZVO_SHADERS_RADIANCE_CACHED_FACES_H
+#define ZVO_SHADERS_RADIANCE_CACHED_FACES_H
 
 #include "light/outside.h"
 
@@ -13,31 +13,31 @@ GPU_NAMESPACE_BEGIN
 ///     key    x 18 bits | y 13 of 18, kFaceKeyTag
 ///            y 5 of 18 | z 18 | number of the normal 3 (LightBrick::exposed) | level 5 (0: a face), kFaceKeyTag
 ///     light  red 16 | green 16
-///            blue 16 | exponent 6 | samples 10, of the face or the brick alone (radiance/kept_face.glsl)
+///            blue 16 | exponent 6 | samples 10, of the face or the brick alone (radiance/cached_face.glsl)
 ///
 /// A first word of 0 means that the slot is free; the words of the key are set one after the other (lib/bricks.glsl).
-struct KeptFace
+struct CachedFace
 {
     uvec2 key;
     uvec2 light;
 };
-GPU_BUFFER(KeptFace, 16);
+GPU_BUFFER(CachedFace, 16);
 
-const uint kKeptFaceBytes = 16u;
+const uint kCachedFaceBytes = 16u;
 const uint kFaceKeyTag = 1u << 31; // in both words of a key
 const uint kFaceRun = 8u;          // slots that faces of 2x2x2 cells with the same normal share as their first ones
 const uint kBrickLevels = 3u;      // of bricks: of 4^3, 16^3 and 64^3 voxels
 const uint kFaceProbesMax = 128u;  // slots looked at before the table counts as full
 
-/// Where the light that is kept on voxels is in device memory, with the light from outside of the grid.
-struct KeptLightTable
+/// Where the radiance cache is in device memory, with the light from outside of the grid.
+struct RadianceCacheTable
 {
-    GPU_CONST_PTR(KeptFace) faces;          // [kFaceRun * run_count]; 0: none are kept
+    GPU_CONST_PTR(CachedFace) faces;        // [kFaceRun * run_count]; 0: none are kept
     GPU_CONST_PTR(Environment) environment; // 0 where faces is
     uint run_count;
     uint frame_count; // since all light was forgotten
 };
-GPU_BUFFER(KeptLightTable, 8);
+GPU_BUFFER(RadianceCacheTable, 8);
 
 GPU_NAMESPACE_END
 

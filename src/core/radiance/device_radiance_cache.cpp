@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "core/radiance/radiance_cache.h"
+#include "core/radiance/device_radiance_cache.h"
 
 #include <algorithm>
 #include <utility>
@@ -38,13 +38,13 @@ bool isSince(const std::optional<std::uint32_t>& since, std::uint32_t frame, std
 
 } // namespace
 
-std::uint64_t RadianceCache::bytes() const
+std::uint64_t DeviceRadianceCache::bytes() const
 {
     return m_status.bytes() + m_lights.bytes() + (m_table == nullptr ? 0 : m_table->bytes()) +
            (m_other_table == nullptr ? 0 : m_other_table->bytes()) + (m_lists == nullptr ? 0 : m_lists->bytes());
 }
 
-void RadianceCache::reserveFaces(std::uint64_t face_count)
+void DeviceRadianceCache::reserveFaces(std::uint64_t face_count)
 {
     const std::uint64_t runs = runsFor(static_cast<double>(face_count));
     if (m_table == nullptr || m_table->run_count < runs)
@@ -54,14 +54,14 @@ void RadianceCache::reserveFaces(std::uint64_t face_count)
     }
 }
 
-void RadianceCache::forget()
+void DeviceRadianceCache::forget()
 {
     m_frame = 0;
     m_lights.forget();
 }
 
-void RadianceCache::reserve(const DeviceTree& tree, std::uint32_t width, std::uint32_t height,
-                            const RadianceOptions& options)
+void DeviceRadianceCache::reserve(const DeviceTree& tree, std::uint32_t width, std::uint32_t height,
+                                  const RadianceOptions& options)
 {
     if (m_table == nullptr)
     {
@@ -83,7 +83,7 @@ void RadianceCache::reserve(const DeviceTree& tree, std::uint32_t width, std::ui
 }
 
 // Notes what has changed since the frame before.
-void RadianceCache::follow(vk::FrameGraph& graph, const DeviceTree& tree, const DeviceEnvironment& environment)
+void DeviceRadianceCache::follow(vk::FrameGraph& graph, const DeviceTree& tree, const DeviceEnvironment& environment)
 {
     if (m_frame == 0)
     {
@@ -117,7 +117,7 @@ void RadianceCache::follow(vk::FrameGraph& graph, const DeviceTree& tree, const 
 
 // Records the pass that makes the table anew without lists, and without faces which no ray has hit for long, such as
 // those that moving objects have left.
-void RadianceCache::purge(vk::FrameGraph& graph, std::uint32_t age_max)
+void DeviceRadianceCache::purge(vk::FrameGraph& graph, std::uint32_t age_max)
 {
     std::swap(m_table, m_other_table);
     purgeFaces(graph, *m_other_table, *m_table, *m_lists, m_frame, age_max);
@@ -125,8 +125,8 @@ void RadianceCache::purge(vk::FrameGraph& graph, std::uint32_t age_max)
     m_has_new_lists = false;
 }
 
-void RadianceCache::update(vk::FrameGraph& graph, const DeviceTree& tree, DeviceEnvironment& environment,
-                           const TraceCamera& camera, const TraceBuffers& seen, const RadianceOptions& options)
+void DeviceRadianceCache::update(vk::FrameGraph& graph, const DeviceTree& tree, DeviceEnvironment& environment,
+                                 const TraceCamera& camera, const TraceBuffers& seen, const RadianceOptions& options)
 {
     reserve(tree, seen.width, seen.height, options);
     environment.prepare(graph);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "bench/kept_motion.h"
+#include "bench/cache_motion.h"
 
 #include "bench/bench_scenes.h"
 #include "bench/lit_scenes.h"
@@ -31,7 +31,7 @@ constexpr std::array<std::uint32_t, 6> kPassed = {0, 8, 16, 24, kFlickerFrames, 
 constexpr std::uint32_t kPassedSamples = 48; // a pixel of pictures that find it
 constexpr int kSmoothRadius = 2;             // pixels around, over whose mean it is looked for
 constexpr std::uint32_t kPathBounces = 32;
-const FrameOptions kCached = {.integrator = Integrator::Cached};
+const FrameOptions kCached = {.integrator = Integrator::Cache};
 
 using Values = std::vector<double>;
 using Mask = std::vector<bool>;
@@ -122,7 +122,7 @@ class MotionBench
 {
 public:
     MotionBench(vk::HeadlessDevice& device, LiveScene& live, DeviceEnvironment& light, const TraceCamera& camera,
-                const BenchKeptOptions& options)
+                const BenchCacheOptions& options)
         : m_device(device), m_live(live), m_light(light), m_camera(camera), m_options(options),
           m_stand(standingFrame(live.animated()))
     {
@@ -191,7 +191,7 @@ private:
     void addFrame(FrameRenderer& tracer, const RadianceOptions& options)
     {
         // Each frame is a picture, as in a window where something moves.
-        const FrameOptions frame = {.integrator = Integrator::Cached, .radiance = options};
+        const FrameOptions frame = {.integrator = Integrator::Cache, .radiance = options};
         tracer.beginPicture(frame);
         m_device.run(
             [&](vk::FrameGraph& graph) {
@@ -273,13 +273,14 @@ private:
     LiveScene& m_live;
     DeviceEnvironment& m_light;
     TraceCamera m_camera;
-    const BenchKeptOptions& m_options;
+    const BenchCacheOptions& m_options;
     std::uint64_t m_stand; // the frame of the scene's time in which what moves stands
 };
 
 } // namespace
 
-std::vector<MovingScene> loadMovingScenes(const BenchKeptOptions& options, std::span<const std::filesystem::path> paths)
+std::vector<MovingScene> loadMovingScenes(const BenchCacheOptions& options,
+                                          std::span<const std::filesystem::path> paths)
 {
     std::vector<MovingScene> scenes;
     for (const std::filesystem::path& path : paths)
@@ -293,12 +294,12 @@ std::vector<MovingScene> loadMovingScenes(const BenchKeptOptions& options, std::
     return scenes;
 }
 
-std::size_t motionCount(const BenchKeptOptions& options, std::span<const MovingScene> scenes)
+std::size_t motionCount(const BenchCacheOptions& options, std::span<const MovingScene> scenes)
 {
     return 2 * scenes.size() * (options.depths ? options.depths->size() : 1);
 }
 
-std::vector<MotionResult> measureMotion(vk::HeadlessDevice& device, const BenchKeptOptions& options,
+std::vector<MotionResult> measureMotion(vk::HeadlessDevice& device, const BenchCacheOptions& options,
                                         std::span<const MovingScene> scenes, std::uint32_t depth, Progress& progress)
 {
     std::vector<MotionResult> results;

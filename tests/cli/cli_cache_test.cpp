@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Pictures of light that is kept on voxels, on the command line.
+// Pictures of the radiance cache, on the command line.
 #include "cli/cli_folder.h"
 
 #include <gtest/gtest.h>
@@ -12,12 +12,13 @@ namespace zvo::test
 namespace
 {
 
-const std::string kCached = "render cube.glb -f --size 40x30 --resolution 16 --integrator cached ";
+const std::string kCached = "render cube.glb -f --size 40x30 --resolution 16 --integrator cache ";
+const std::string kFormerly = "render cube.glb -f --size 40x30 --resolution 16 --integrator cached ";
 
-class CliCached : public CliFolder
+class CliCache : public CliFolder
 {
 protected:
-    CliCached() { m_dir.write("sky.exr", encodeExr({8, 4, std::vector(32, glm::vec3(0.5F))})); }
+    CliCache() { m_dir.write("sky.exr", encodeExr({8, 4, std::vector(32, glm::vec3(0.5F))})); }
 
     // The picture of a run that succeeds.
     [[nodiscard]] std::string picture(const std::string& options) const
@@ -27,7 +28,7 @@ protected:
     }
 };
 
-TEST_F(CliCached, EachOptionChangesThePicture)
+TEST_F(CliCache, EachOptionChangesThePicture)
 {
     const std::string plain = picture("--settle 12");
     EXPECT_EQ(picture("--settle 12"), plain);
@@ -41,7 +42,7 @@ TEST_F(CliCached, EachOptionChangesThePicture)
 }
 
 // Cones show the same light in another way, the same in every run and of every structure.
-TEST_F(CliCached, ConesShowTheLight)
+TEST_F(CliCache, ConesShowTheLight)
 {
     const auto cones = [this](const std::string& options)
     {
@@ -77,7 +78,7 @@ TEST_F(CliCached, ConesShowTheLight)
 }
 
 // A picture of radiance, and what the report says.
-TEST_F(CliCached, ReportsWhatIsKept)
+TEST_F(CliCache, ReportsWhatIsCached)
 {
     const json cached =
         printedBy(kCached + "--settle 20 --spp 3 --rays 1000 --environment sky.exr -o picture.exr --json -")["cached"];
@@ -90,37 +91,37 @@ TEST_F(CliCached, ReportsWhatIsKept)
     EXPECT_EQ(radiance("picture.exr").front(), glm::vec3(0.5F)) << "the sky";
 }
 
-// A sequence has one cache: its light settles once.
-TEST_F(CliCached, SequencesSettleOnce)
+// A sequence has one cache: its light settles once. The integrator is asked for by its old name.
+TEST_F(CliCache, SequencesSettleOnce)
 {
-    const json report = printedBy(kCached + "--frames 0..2 --settle 5 --spp 2 -o turn_#.png --json -");
+    const json report = printedBy(kFormerly + "--frames 0..2 --settle 5 --spp 2 -o turn_#.png --json -");
     EXPECT_EQ(report["cached"]["pictures"].size(), 3U);
     EXPECT_EQ(report["capped_rays"], 0);
     EXPECT_NE(file("turn_0.png"), file("turn_1.png"));
 }
 
 // Without room for the light there is a picture by primary rays.
-TEST_F(CliCached, TracesWithoutLightIfThereIsNoRoom)
+TEST_F(CliCache, TracesWithoutLightIfThereIsNoRoom)
 {
     const std::string told = run(kCached + "-o small.png --memory-limit 14M").err;
-    EXPECT_TRUE(contains(told, "warning: no light is kept on voxels")) << told;
+    EXPECT_TRUE(contains(told, "warning: no radiance cache")) << told;
     EXPECT_TRUE(contains(told, "--memory-limit")) << told;
     run("render cube.glb --size 40x30 --resolution 16 -o primary.png");
     EXPECT_TRUE(file("small.png") == file("primary.png"));
     EXPECT_EQ(runZvo(m_dir.path(), kCached + "-o small.exr --memory-limit 14M").exit_code, 6);
 }
 
-TEST_F(CliCached, ErrorsNameTheOption)
+TEST_F(CliCache, ErrorsNameTheOption)
 {
     expectError(kCached + "-o x.png --bounces 3", 2, {"--bounces", "--integrator path"});
     expectError(kCached + "-o x.png --denoise", 2, {"--denoise", "--integrator path"});
-    expectError(kCached + "-o x.png --view normal", 2, {"--view", "--integrator cached"});
+    expectError(kCached + "-o x.png --view normal", 2, {"--view", "--integrator cache"});
     expectError(kCached + "-o x.png --rays 0", 2, {"--rays"});
     const std::string render = "render cube.glb -o x.png --integrator ";
     expectError(render + "cones --denoise", 2, {"--denoise", "--integrator path"});
-    expectError(render + "cone", 2, {"--integrator", "cached", "cones"});
-    expectError(render + "path --settle 5", 2, {"--settle", "--integrator cached"});
-    expectError(render + "path --rays 5", 2, {"--rays", "--integrator cached"});
+    expectError(render + "cone", 2, {"--integrator", "cache", "cones"});
+    expectError(render + "path --settle 5", 2, {"--settle", "--integrator cache"});
+    expectError(render + "path --rays 5", 2, {"--rays", "--integrator cache"});
 }
 
 } // namespace

@@ -5,7 +5,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "radiance/radiance.h"
 
-GPU_ENTRY(RadianceApplyParams, GPU_NO_CONSTANTS);
+GPU_ENTRY(RadianceUpdateParams, GPU_NO_CONSTANTS);
 layout(local_size_x = kRadianceGroup) in;
 
 #include "lib/bound.glsl"
@@ -18,7 +18,7 @@ layout(local_size_x = kRadianceGroup) in;
 #include "path/lists.glsl"
 #include "radiance/brick.glsl"
 #include "radiance/face_table.glsl"
-#include "radiance/kept_face.glsl"
+#include "radiance/cached_face.glsl"
 
 // The mark of a face whose path has hit what its number tells.
 uint markAfter(uint mark, uint number)
@@ -55,19 +55,19 @@ void main()
     vec3 sampled = params.radiance.data[i];
     vec3 thresholds = thresholdsOf(hashPair(hashPair(key.y, key.x), params.frame));
 
-    uint before = keptWeight(state.own);
+    uint before = cachedWeight(state.own);
     uint count = before + 1u;
     bool touched = ((mark >> kMarkMovedShift) & kMarkMovedFrames) != 0u;
     count = (mark & kFaceMoved) != 0u ? min(count, params.moved_window)
             : touched                 ? min(count, params.touched_window)
                                       : count;
     uint weight = min(count, params.window);
-    vec3 last = keptRadiance(state.own);
+    vec3 last = cachedRadiance(state.own);
     vec3 own = towards(last, sampled, weight);
     vec3 recent = towards(recentRadiance(state.recent), sampled, min(count, kRecentSamples));
 
     uvec3 cell = cellOfFace(key);
-    KeptFace around;
+    CachedFace around;
     uint brick;
     vec4 sum = lightBetweenFaces(cell >> 2, normalOfFace(key), (vec3(cell & 3u) + 0.5) / 4.0, 1u, brick, around);
     vec3 brick_light = sum.rgb / max(sum.w, 1e-6);
@@ -88,6 +88,6 @@ void main()
     }
     precise vec3 shown = mix(own, brick_light, sum.w > 0.0 ? shareOfBrick(float(weight), brick_samples) : 0.0);
 
-    uint64_t_Ptr(uint64_t(params.faces)).data[2u * slot + 1u] = packUint2x32(packKept(shown, weight, thresholds));
-    params.states.data[slot] = FaceState(mark, packRecent(recent, thresholds), packKept(own, weight, thresholds));
+    uint64_t_Ptr(uint64_t(params.faces)).data[2u * slot + 1u] = packUint2x32(packCached(shown, weight, thresholds));
+    params.states.data[slot] = FaceState(mark, packRecent(recent, thresholds), packCached(own, weight, thresholds));
 }

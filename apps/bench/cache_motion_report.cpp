@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Tables and JSON of what measureMotion() has measured.
-#include "bench/kept_motion.h"
+#include "bench/cache_motion.h"
 #include "bench/table.h"
 
 #include <fmt/format.h>
@@ -90,7 +90,7 @@ Json errorJson(const MotionError& error)
 std::string motionText(std::span<const MotionResult> results)
 {
     std::string text =
-        fmt::format("It follows: pictures of one frame of light that is kept, {} frames old, in which something has "
+        fmt::format("It follows: pictures of one frame of the radiance cache, {} frames old, in which something has "
                     "moved for {} frames and now stands for those that are named, beside one in which it always stood "
                     "there. \"near\" is where it changes the light by more than {:.0f} %, there or on the way of its "
                     "last {} frames; \"lag\" is the difference from the still picture there, and of that one from "

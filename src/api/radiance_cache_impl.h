@@ -4,7 +4,7 @@
 #include "api/context_impl.h"
 #include "api/environment_impl.h"
 #include "core/frame/frame_renderer.h"
-#include "zvo/kept_light.h"
+#include "zvo/radiance_cache.h"
 
 #include <cstdint>
 #include <deque>
@@ -15,18 +15,18 @@
 namespace zvo
 {
 
-struct ZVO_LOCAL KeptLight::Impl
+struct ZVO_LOCAL RadianceCache::Impl
 {
-    static constexpr const char* kName = "kept light"; // in messages
+    static constexpr const char* kName = "radiance cache"; // in messages
 
-    Impl(Context::Impl& context_impl, const KeptLightInfo& light_info);
+    Impl(Context::Impl& context_impl, const RadianceCacheInfo& light_info);
     ~Impl();
     Impl(const Impl&) = delete;
     Impl& operator=(const Impl&) = delete;
 
     template <typename AnyTree>
     void update(Recorder& recorder, AnyTree& any_tree, Environment& any_environment, const CameraInfo& camera_info,
-                const KeptFrameInfo& frame_info);
+                const CachedFrameInfo& frame_info);
 
     /// Throws Error{Usage} unless the last update was of this tree, as it is.
     void requireShown(const DeviceTree& tree) const;
@@ -35,10 +35,10 @@ struct ZVO_LOCAL KeptLight::Impl
     void learn();
 
     Context::Impl& context;
-    KeptLightInfo info;
+    RadianceCacheInfo info;
     std::unique_ptr<FrameRenderer> renderer; // of the camera's rays; keeps the light
-    vk::BufferOf<gpu::KeptLightTable> table;
-    KeptLightStats newest = {};
+    vk::BufferOf<gpu::RadianceCacheTable> table;
+    RadianceCacheStats newest = {};
 
 private:
     // Which voxels the light is of.
@@ -58,7 +58,7 @@ private:
     };
 
     void follow(const Shown& now);
-    void publish(vk::FrameGraph& graph, const gpu::KeptLightTable& values);
+    void publish(vk::FrameGraph& graph, const gpu::RadianceCacheTable& values);
     void report(Recorder::Impl& recorder);
 
     std::shared_ptr<FrameState> m_frame = nullptr; // of the last update

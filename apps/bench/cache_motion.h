@@ -24,7 +24,8 @@ inline constexpr std::uint32_t kLingers = 16;       // the last of them, whose l
 inline constexpr double kNearChange = 0.05;         // of light, where what moves counts
 inline constexpr double kCalmChange = 0.02;         // of light, where it does not
 
-/// The mean relative error of a picture of one frame of kept light: over all pixels, and where what moves counts.
+/// The mean relative error of a picture of one frame of the radiance cache: over all pixels, and where what moves
+/// counts.
 struct MotionError
 {
     std::uint32_t frames = 0; // since what moves stands
@@ -41,7 +42,7 @@ struct MovingScene
     AnimatedScene animated;
 };
 
-/// How light that is kept follows what moves: at a place to which it came, beside one at which it always was.
+/// How the radiance cache follows what moves: at a place to which it came, beside one at which it always was.
 struct MotionResult
 {
     std::string scene;
@@ -56,15 +57,15 @@ struct MotionResult
 };
 
 /// Loads scene files. Throws Error{Input}, also where nothing moves.
-std::vector<MovingScene> loadMovingScenes(const BenchKeptOptions& options,
+std::vector<MovingScene> loadMovingScenes(const BenchCacheOptions& options,
                                           std::span<const std::filesystem::path> paths);
 
 /// How many results measureMotion() gives, at most.
-std::size_t motionCount(const BenchKeptOptions& options, std::span<const MovingScene> scenes);
+std::size_t motionCount(const BenchCacheOptions& options, std::span<const MovingScene> scenes);
 
 /// Measures scenes by day, and at night if they have voxels that give off light. depth: where options have none. Throws
 /// Error.
-std::vector<MotionResult> measureMotion(vk::HeadlessDevice& device, const BenchKeptOptions& options,
+std::vector<MotionResult> measureMotion(vk::HeadlessDevice& device, const BenchCacheOptions& options,
                                         std::span<const MovingScene> scenes, std::uint32_t depth, Progress& progress);
 
 /// What the results are, and tables of them.
