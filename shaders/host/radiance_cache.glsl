@@ -129,7 +129,8 @@ vec3 zvo_outside(RadianceCacheTable_ConstPtr light, vec3 direction)
 // The light that comes from a hit, against its ray: what the voxel emits and reflects of the cached light, as zvo's
 // pictures of it show; for a miss what is outside, without the sun. w: 1, or 0 where it is not known what it reflects
 // or what is outside, and rgb is 0. origin, direction: of the ray in world space.
-vec4 zvo_cachedRadiance(RadianceCacheTable_ConstPtr light, TreeTable_ConstPtr tree, Hit hit, vec3 origin, vec3 direction)
+vec4 zvo_cachedRadiance(RadianceCacheTable_ConstPtr light, TreeTable_ConstPtr tree, Hit hit, vec3 origin,
+                        vec3 direction)
 {
     if (!zvo_isHit(hit))
     {
@@ -183,10 +184,10 @@ float zvo_occlusion(TreeTable_ConstPtr tree, vec3 position, vec3 normal, uint ra
 }
 
 // The light that arrives at a point as zvo_irradiance() gives it, of so many rays, at most 256, which find what
-// zvo_cachedRadiance() tells of their hits, and of one to the middle of the sun: where no faces are cached, or for what is
-// not among the voxels. seed: of the directions. w: the share of rays that found light; 0: none, and rgb is 0.
-vec4 zvo_gatherIrradiance(RadianceCacheTable_ConstPtr light, TreeTable_ConstPtr tree, vec3 position, vec3 normal, uint rays,
-                          uint seed)
+// zvo_cachedRadiance() tells of their hits, and of one to the middle of the sun: where no faces are cached, or for what
+// is not among the voxels. seed: of the directions. w: the share of rays that found light; 0: none, and rgb is 0.
+vec4 zvo_gatherIrradiance(RadianceCacheTable_ConstPtr light, TreeTable_ConstPtr tree, vec3 position, vec3 normal,
+                          uint rays, uint seed)
 {
     vec3 origin = aboveVoxels(tree, position, normal);
     uint count = clamp(rays, 1u, kPointRaysMax);

@@ -1,7 +1,7 @@
 #version 460
 // SPDX-License-Identifier: MIT
-// Adds the light that the camera sees reflected to each pixel: what is cached at its hit, between four faces. Pixels that
-// see a lamp, or nothing, are listed.
+// Adds the light that the camera sees reflected to each pixel: what is cached at its hit, between four faces. Pixels
+// that see a lamp, or nothing, are listed.
 #extension GL_GOOGLE_include_directive : require
 #include "radiance/radiance.h"
 
