@@ -25,7 +25,7 @@
 //
 // make an enum class of C++, which the host defines where it needs it, a type of constants; in GLSL they are uints.
 //
-// Bound forms (lib/bound.glsl) need no declaration of their own: their bindings have the names of parameters.
+// Bindings of bound forms (lib/bound.glsl) need no declaration in C++: they have the names of parameters.
 //
 // This file holds the shared headers' only `#ifdef __cplusplus`; the others need none.
 #ifndef ZVO_SHADERS_SHARED_GPU_H

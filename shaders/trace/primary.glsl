@@ -2,7 +2,9 @@
 // Traces the rays of all pixels in live tiles, one workgroup for each tile. Rays that use up their iterations resume in
 // another round. With PRIMARY_RANKS, hits in a DAG get the ranks that are the indices of their
 // attributes (D. Dolonius, E. Sintorn, V. Kaempe, U. Assarsson, Compressing Color Data for Voxelized Surface Geometry,
-// 2017, who sum up during the traversal; here only the path of the hit is summed up). Needs GPU_ENTRY.
+// 2017, who sum up during the traversal; here only the path of the hit is summed up). Needs GPU_ENTRY with
+// PrimaryParams and TRACE_PRIMARY_CONSTANTS or, with PRIMARY_RANKS, with PrimaryRanksParams and
+// TRACE_PRIMARY_RANKS_CONSTANTS.
 #ifndef ZVO_SHADERS_TRACE_PRIMARY_GLSL
 #define ZVO_SHADERS_TRACE_PRIMARY_GLSL
 

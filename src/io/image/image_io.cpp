@@ -54,7 +54,6 @@ void* decoderReallocate(void* old, std::size_t bytes)
 
 #define STB_IMAGE_WRITE_STATIC
 #define STB_IMAGE_WRITE_IMPLEMENTATION
-#define STBI_WRITE_NO_STDIO
 #include <stb/stb_image_write.h>
 
 namespace zvo
