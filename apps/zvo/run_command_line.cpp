@@ -107,7 +107,7 @@ void addPathOptions(CLI::App& render, RenderOptions& options)
     addValue(render, "--seed", path.seed, integerIn(0, UINT32_MAX), "N",
              fmt::format("of the paths' random numbers, 0 to {} (default 0)", UINT32_MAX));
     addValue(render, "--settle", options.settle, integerIn(0, 1U << 24), "N",
-             fmt::format("frames of --integrator cache before the first picture, 0 to {} (default 64)", 1U << 24));
+             fmt::format("frames of --integrator cache before the first picture, 0 to {} (default 128)", 1U << 24));
     addValue(render, "--rays", options.frame.radiance.faces, integerIn(1, kRadianceFacesMax), "N",
              fmt::format("faces that a frame of --integrator cache samples at most, 1 to {} (default 16384): each "
                          "takes up to two rays and two shadow rays",

@@ -15,26 +15,29 @@ namespace zvo::baseline
 void SlidesBuilder::makeUnique(vk::FrameGraph& graph)
 {
     vk::Pass pass = graph.addPass(gpu::baseline::SlidesUnique{});
-    pass.dispatch(divideUp(m_result.fragment_count, gpu::kSlidesItems),
-                  {.keys = pass.read(m_sort->keys[m_sorted]),
-                   .partials = pass.readWrite(m_unique_partials),
-                   .codes = pass.write(m_cells[0].codes),
-                   .firsts = pass.write(m_firsts),
-                   .key_count = static_cast<std::uint32_t>(m_result.fragment_count),
-                   .depth = m_result.tree.grid.depth});
+    gpu::SlidesUniqueParams params{};
+    params.keys = pass.read(m_sort->keys[m_sorted]);
+    params.partials = pass.readWrite(m_unique_partials);
+    params.codes = pass.write(m_cells[0].codes);
+    params.firsts = pass.write(m_firsts);
+    params.key_count = static_cast<std::uint32_t>(m_result.fragment_count);
+    params.depth = m_result.tree.grid.depth;
+    pass.dispatch(divideUp(m_result.fragment_count, gpu::kSlidesItems), params);
 }
 
 void SlidesBuilder::average(vk::FrameGraph& graph)
 {
     vk::Pass pass = graph.addPass(gpu::baseline::SlidesAverage{});
-    pass.dispatch(m_result.tree.voxel_count, {.scene = readColorTables(pass, m_scene.uploaded()),
-                                              .firsts = pass.read(m_firsts),
-                                              .indices = pass.read(m_sort->indices[m_sorted]),
-                                              .fragments = pass.read(m_fragments),
-                                              .attributes = pass.write(m_result.tree.attributes),
-                                              .counters = pass.readWrite(m_counters),
-                                              .voxel_count = m_result.tree.voxel_count,
-                                              .fragment_count = static_cast<std::uint32_t>(m_result.fragment_count)});
+    gpu::SlidesAverageParams params{};
+    params.scene = readColorTables(pass, m_scene.uploaded());
+    params.firsts = pass.read(m_firsts);
+    params.indices = pass.read(m_sort->indices[m_sorted]);
+    params.fragments = pass.read(m_fragments);
+    params.attributes = pass.write(m_result.tree.attributes);
+    params.counters = pass.readWrite(m_counters);
+    params.voxel_count = m_result.tree.voxel_count;
+    params.fragment_count = static_cast<std::uint32_t>(m_result.fragment_count);
+    pass.dispatch(m_result.tree.voxel_count, params);
 }
 
 // Finds the class of each candidate, and makes the classes nodes of the tree.
@@ -100,8 +103,11 @@ void SlidesBuilder::makeLevel(vk::FrameGraph& graph, std::uint32_t level)
     const std::uint32_t first_node = std::accumulate(m_cell_counts.begin() + 1, m_cell_counts.begin() + 1 + level, 0U);
     {
         vk::Pass pass = graph.addPass(gpu::baseline::SlidesParentsCount{});
-        pass.dispatch(threads,
-                      {.codes = pass.read(cells.codes), .partials = pass.write(m_partials), .cell_count = count});
+        gpu::SlidesParentsParams params{};
+        params.codes = pass.read(cells.codes);
+        params.partials = pass.write(m_partials);
+        params.cell_count = count;
+        pass.dispatch(threads, params);
     }
     // Of a DAG, mergeLevel() writes the number of different nodes in place of this one.
     scanPartials(graph, m_partials, partialCount(count),

@@ -179,10 +179,12 @@ void walkTriangles(vk::FrameGraph& graph, const ThesisJob& job, ThesisTarget tar
     if (sums)
     {
         vk::Pass pass = graph.addPass(gpu::baseline::ThesisResolve{});
-        pass.dispatch(cells.voxels.count(), {.scene = readColorTables(pass, job.scene.uploaded()),
-                                             .sums = pass.read(cells.sums),
-                                             .cells = pass.write(cells.voxels),
-                                             .cell_count = static_cast<std::uint32_t>(cells.voxels.count())});
+        gpu::ThesisResolveParams params{};
+        params.scene = readColorTables(pass, job.scene.uploaded());
+        params.sums = pass.read(cells.sums);
+        params.cells = pass.write(cells.voxels);
+        params.cell_count = static_cast<std::uint32_t>(cells.voxels.count());
+        pass.dispatch(cells.voxels.count(), params);
     }
 }
 

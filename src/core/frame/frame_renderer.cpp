@@ -212,7 +212,7 @@ void FrameRenderer::dropSamples()
 SampledPicture FrameRenderer::samples(const FrameOptions& options) const
 {
     return usesCache(options.integrator) ? m_view->picture()
-           : options.denoise             ? m_denoiser->picture()
+           : denoises(options)           ? m_denoiser->picture()
                                          : m_paths->picture();
 }
 
