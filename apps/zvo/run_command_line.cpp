@@ -199,11 +199,12 @@ void addOptions(CLI::App& build, BuildFileOptions& options)
 {
     addVoxelOptions(build, options.voxels);
     addStructureOption(build, options.structure, kStructureHelp);
-    static constexpr auto kFormats = std::to_array<Named<AttributeFormat>>({{"none", AttributeFormat::None},
-                                                                            {"4", AttributeFormat::Bytes4},
-                                                                            {"8", AttributeFormat::Bytes8},
-                                                                            {"block", AttributeFormat::Blocks}});
-    addNamed(build, "--attributes", options.voxels.attributes, kFormats,
+    static constexpr auto kAttributeFormats =
+        std::to_array<Named<AttributeFormat>>({{"none", AttributeFormat::None},
+                                               {"4", AttributeFormat::Bytes4},
+                                               {"8", AttributeFormat::Bytes8},
+                                               {"block", AttributeFormat::Blocks}});
+    addNamed(build, "--attributes", options.voxels.attributes, kAttributeFormats,
              "colour, normal and emission of the voxels: colour and normal in 4 or 8 bytes or in blocks of 16, "
              "which take 24; or only their places (default 8)",
              "none, 4, 8 or block");

@@ -49,10 +49,12 @@ public:
         triangle_count = still.triangleCount();
         progress.begin("copying to the device");
         m_device = openDevice(device);
-        scene.emplace(uploadWithWarnings(*m_device, still, voxels, grid, progress));
+        m_scene.emplace(uploadWithWarnings(*m_device, still, voxels, grid, progress));
     }
 
     [[nodiscard]] vk::HeadlessDevice& device() { return *m_device; }
+    [[nodiscard]] GpuScene& scene() { return *m_scene; }
+    void freeScene() { m_scene.reset(); }
 
     // Completes the files. json: makes the report, if one was asked for.
     void finish(const std::function<Json()>& json)
@@ -73,11 +75,11 @@ public:
     Progress progress{4};
     Grid grid;
     std::uint64_t triangle_count = 0;
-    std::optional<GpuScene> scene;
 
 private:
     std::optional<Output> m_report;
     std::shared_ptr<vk::HeadlessDevice> m_device;
+    std::optional<GpuScene> m_scene;
 };
 
 std::string formatOf(const VoxelizeOptions& options)
@@ -117,7 +119,7 @@ struct Built
 Built buildSvo(VoxelRun& run, const BuildFileOptions& options)
 {
     BuildResult result =
-        buildOctree(run.device(), *run.scene, run.grid, {options.voxels.coverage, options.voxels.hasAttributes(), {}});
+        buildOctree(run.device(), run.scene(), run.grid, {options.voxels.coverage, options.voxels.hasAttributes(), {}});
     const std::vector<vk::PassTime> packing = packTree(run.device(), options.voxels.attributes, result.octree);
     result.passes.insert(result.passes.end(), packing.begin(), packing.end());
     return {downloadTree(run.device(), result.octree), std::move(result.dropped), std::move(result.passes),
@@ -128,7 +130,7 @@ Built buildSvdag(VoxelRun& run, const BuildFileOptions& options)
 {
     TiledOptions tiled{.coverage = options.voxels.coverage, .attributes = options.voxels.attributes};
     tiled.progress = [&run](double done) { run.progress.within(done); };
-    TiledResult result = buildByTiles(run.device(), *run.scene, run.grid, tiled);
+    TiledResult result = buildByTiles(run.device(), run.scene(), run.grid, tiled);
     return {std::move(result.tree), std::move(result.dropped), std::move(result.passes), result.retry_count,
             result.tile_count};
 }
@@ -171,7 +173,7 @@ void voxelize(const VoxelizeOptions& options)
 
     run.progress.begin("voxelizing");
     const BuildResult result =
-        buildOctree(device, *run.scene, run.grid, {options.voxels.coverage, options.voxels.hasAttributes(), {}});
+        buildOctree(device, run.scene(), run.grid, {options.voxels.coverage, options.voxels.hasAttributes(), {}});
     warnOfDropped(result.octree.voxel_count, result.dropped);
 
     run.progress.begin("writing");
@@ -199,7 +201,7 @@ void buildFile(const BuildFileOptions& options)
     run.progress.begin("building");
     const bool is_dag = options.structure == TreeStructure::Svdag;
     const Built built = is_dag ? buildSvdag(run, options) : buildSvo(run, options);
-    run.scene.reset();
+    run.freeScene();
     warnOfDropped(built.tree.voxel_count, built.dropped);
 
     run.progress.begin("writing");

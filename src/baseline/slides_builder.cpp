@@ -250,12 +250,13 @@ void SlidesBuilder::makeVoxels(vk::FrameGraph& graph)
     m_sorted = radixSort(graph, *m_sort, m_result.fragment_count, kBitsALevel * m_result.tree.grid.depth);
     {
         vk::Pass pass = graph.addPass(gpu::baseline::SlidesUniqueCount{});
-        pass.dispatch(divideUp(m_result.fragment_count, gpu::kSlidesItems),
-                      {.keys = pass.read(m_sort->keys[m_sorted]),
-                       .partials = pass.write(m_unique_partials),
-                       .counters = pass.readWrite(m_counters),
-                       .key_count = static_cast<std::uint32_t>(m_result.fragment_count),
-                       .depth = m_result.tree.grid.depth});
+        gpu::SlidesUniqueParams params{};
+        params.keys = pass.read(m_sort->keys[m_sorted]);
+        params.partials = pass.write(m_unique_partials);
+        params.counters = pass.readWrite(m_counters);
+        params.key_count = static_cast<std::uint32_t>(m_result.fragment_count);
+        params.depth = m_result.tree.grid.depth;
+        pass.dispatch(divideUp(m_result.fragment_count, gpu::kSlidesItems), params);
     }
     scanPartials(graph, m_unique_partials, m_unique_partials.count(),
                  totalAt(m_counters, offsetof(gpu::SlidesCounters, voxel_count)));

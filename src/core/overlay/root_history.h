@@ -64,6 +64,7 @@ struct RootEntry
 /// or are kept for pending entries, do not count towards bytes_max; waitingBytes() tells their size.
 ///
 /// undo(), redo() and current() take constant time, everything else at most n log n for n entries.
+///
 /// Layer states, with what they keep, live as long as current(), undo() or redo() may return them, also after fail() or
 /// frameLost(), and until their own update has ended.
 class RootHistory final : public vk::FrameParticipant

@@ -178,7 +178,7 @@ TEST(HdrImageIo, DamagedFilesEndInOneLine)
                 bytes[random() % bytes.size()] = static_cast<std::uint8_t>(random());
             }
             std::vector<std::string> warnings;
-            refused += loadsOrIsRefused([&] { decodeHdrImage(bytes, "here", warnings); }) ? 0 : 1;
+            refused += test::loadsOrIsRefused([&] { decodeHdrImage(bytes, "here", warnings); }) ? 0 : 1;
         }
     }
     EXPECT_GT(refused, 300U);

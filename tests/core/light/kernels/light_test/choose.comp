@@ -3,19 +3,15 @@
 // Chooses lights for places, or asks how probable each is.
 #extension GL_GOOGLE_include_directive : require
 #include "choose.h"
+
+GPU_ENTRY(ChooseParams, LIGHT_TEST_CHOOSE_CONSTANTS);
+layout(local_size_x = 64) in;
+
 #include "lib/dispatch.glsl"
 #include "lib/face.glsl"
 #include "lib/sampling.glsl"
 
-layout(constant_id = 0) const uint kNodeLevels = 5u;
-layout(constant_id = 1) const bool kChoose = false;
 const bool kByPower = false;
-
-layout(local_size_x = 64) in;
-layout(push_constant, scalar) uniform Push
-{
-    ChooseParams params;
-};
 
 #include "light/choose.glsl"
 #include "light/importance.glsl"

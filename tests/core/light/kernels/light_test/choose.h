@@ -30,10 +30,10 @@ struct ChooseParams // push constants of light_test/choose: a thread a face of e
     uint place_count;
     uint face_count;
 };
-GPU_KERNEL_BEGIN(light_test, choose, Choose, ChooseParams)
-    GPU_CONSTANT(uint, node_levels, 5u)
-    GPU_CONSTANT(bool, choose, false)
-GPU_KERNEL_END
+#define LIGHT_TEST_CHOOSE_CONSTANTS(CONSTANT)                                                                          \
+    CONSTANT(0, uint, node_levels, kNodeLevels, 5u)                                                                    \
+    CONSTANT(1, bool, choose, kChoose, false)
+GPU_KERNEL(light_test, choose, Choose, ChooseParams, LIGHT_TEST_CHOOSE_CONSTANTS)
 
 struct SamplesParams // push constants of light_test/samples: a thread a sample
 {
@@ -42,7 +42,7 @@ struct SamplesParams // push constants of light_test/samples: a thread a sample
     uint seed;
     uint pair;
 };
-GPU_KERNEL(light_test, samples, Samples, SamplesParams)
+GPU_KERNEL(light_test, samples, Samples, SamplesParams, GPU_NO_CONSTANTS)
 
 GPU_NAMESPACE_END
 

@@ -3,14 +3,12 @@
 // Writes random numbers of samples.
 #extension GL_GOOGLE_include_directive : require
 #include "choose.h"
+
+GPU_ENTRY(SamplesParams, GPU_NO_CONSTANTS);
+layout(local_size_x = 64) in;
+
 #include "lib/dispatch.glsl"
 #include "lib/sampling.glsl"
-
-layout(local_size_x = 64) in;
-layout(push_constant, scalar) uniform Push
-{
-    SamplesParams params;
-};
 
 void main()
 {
