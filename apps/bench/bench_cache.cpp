@@ -170,7 +170,7 @@ public:
         return rows;
     }
 
-    /// the radiance cache after so many frames, on the faces that are seen and through cones: both pictures are of
+    /// The radiance cache after so many frames, on the faces that are seen and through cones: both pictures are of
     /// the same frames.
     std::vector<CacheRow> cached(const HdrImage& reference, std::span<const std::uint32_t> counts, const CacheRow& path)
     {
@@ -337,7 +337,7 @@ std::string cacheTable(const vk::DeviceReport& device, const BenchCacheOptions& 
 {
     std::string text =
         fmt::format("zvo {} on {} ({}, {}). Pictures of {} x {} pixels beside one of {} paths a pixel with another "
-                    "seed. The radiance cache is sampled on {} faces a frame.\n\n",
+                    "seed. The radiance cache samples {} faces a frame.\n\n",
                     ZVO_VERSION_TEXT, device.name, device.type, device.driver, options.width, options.height,
                     options.reference_samples, options.faces);
     if (!rows.empty())

@@ -40,10 +40,10 @@ struct RadianceCacheStats
     std::uint64_t refused = 0; // faces for which there was no room, each time that a ray has hit them
 };
 
-/// The radiance cache and gets better from frame to frame (docs/radiance.md), for the host's own
-/// shaders: zvo/trace.glsl looks it up at any point of a surface, without a ray (docs/host-glsl.md). It follows what
-/// moves, brushes, the sun and lamps by itself. All frames in flight may use it. Move-only; throws Error{Usage} when it
-/// is used after it was moved from.
+/// A world-space radiance cache: light on the faces of voxels, which gets better from frame to frame
+/// (docs/radiance.md), for the host's own shaders. zvo/trace.glsl looks it up at any point of a surface, without a ray
+/// (docs/host-glsl.md). It follows what moves, brushes, the sun and lamps by itself. All frames in flight may use it.
+/// Move-only; throws Error{Usage} when it is used after it was moved from.
 class ZVO_API RadianceCache
 {
 public:

@@ -68,7 +68,7 @@ struct CoveragePush
 
 const LitVoxel kGreyWall = {{}, glm::uvec3(188), glm::vec3(0.0F)};
 
-// The radiance cache on a tree's voxels, below a sky of one radiance.
+// The radiance cache of a tree, below a sky of one radiance.
 struct LightOfCones : test::HostLight
 {
     LightOfCones(const DeviceTree& tree, const glm::vec3& sky, const ViewCamera& view, std::uint32_t frames)

@@ -49,7 +49,7 @@ struct Push
     gpu::uint seed;
 };
 
-// Voxels with the radiance cache on them.
+// Voxels and their radiance cache.
 struct Lit : test::HostLight
 {
     Lit(const std::vector<LitVoxel>& voxels, std::uint32_t depth, DeviceEnvironment&& outside, const ViewCamera& view,

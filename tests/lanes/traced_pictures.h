@@ -15,7 +15,7 @@ void tracePictures(const DeviceTree& tree);
 /// Traces paths through a tree with emissive voxels, in both forms, for two pictures that are denoised.
 void tracePaths(const DeviceTree& tree);
 
-/// Keeps light on the voxels of a tree, in pictures of two sizes, of which the second is seen through cones.
+/// Caches light on the voxels of a tree, in pictures of two sizes, of which the second is seen through cones.
 void keepLight(const DeviceTree& tree);
 
 /// Traces pictures of the octree with packed attributes. Pictures of all formats are traced.

@@ -51,8 +51,8 @@ public:
     /// Error{Memory}; then what pictures show stays as it was.
     void reserve(const DeviceTree& tree, const FrameOptions& options);
 
-    /// Records the passes of a whole frame, and makes the picture: addSample(), denoise() and develop(). Light that is
-    /// kept begins a new picture. ray_lists: as in PathTracer::addSample().
+    /// Records the passes of a whole frame, and makes the picture: addSample(), denoise() and develop(). The radiance
+    /// cache begins a new picture. ray_lists: as in PathTracer::addSample().
     void render(vk::FrameGraph& graph, const FrameSubject& subject, const FrameOptions& options,
                 vk::BufferOf<gpu::DispatchArgs>* ray_lists = nullptr);
 
@@ -109,7 +109,7 @@ public:
     /// [1] the factor of the radiance in the last picture of samples.
     [[nodiscard]] const vk::BufferOf<float>& exposure() const { return m_developer->exposure(); }
 
-    /// the radiance cache, if samples bring it up to date.
+    /// The radiance cache, if samples bring it up to date.
     [[nodiscard]] DeviceRadianceCache& cache();
 
     /// Frames that brought the radiance cache up to date so far; 0 without one.
