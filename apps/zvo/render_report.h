@@ -53,7 +53,7 @@ public:
     [[nodiscard]] Json rebuiltFrame(std::uint32_t number, double seconds, const BuildResult& result,
                                     std::uint64_t triangle_count) const;
 
-    /// The whole report, after all pictures. cache: null without light on voxels.
+    /// The whole report, after all pictures. cache: null for other integrators.
     [[nodiscard]] Json json(std::uint64_t capped_rays, const DeviceRadianceCache* cache) const;
 
     /// Tells of the run on standard error, after all pictures. picture_count: how many were asked for.

@@ -123,7 +123,7 @@ std::vector<std::uint8_t> Renderer::renderPrimary(PictureTimes& times)
     return encodePicture();
 }
 
-// The picture whose light is computed by samples; nothing, with a warning, if there is no room to have a radiance
+// The picture whose light is computed by samples; nothing, with a warning, if there is no room for a radiance
 // cache.
 std::optional<std::vector<std::uint8_t>> Renderer::renderSamplesOrWarn(Progress& progress, PictureTimes& times)
 {

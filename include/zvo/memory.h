@@ -45,6 +45,7 @@ typedef struct ZvoMemoryCallbacks
 namespace zvo
 {
 
+// Structs of C: members have no defaults, so begin with {}.
 using MemoryRequest = ZvoMemoryRequest;
 using MemoryRange = ZvoMemoryRange;
 using MemoryCallbacks = ZvoMemoryCallbacks;

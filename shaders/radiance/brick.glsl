@@ -21,9 +21,9 @@ const float kSumMost = 67108860.0; // steps of a sample, so that 64 fit: 2^26 - 
 // of up to 16,384 times as much fit. Brighter ones count as that. Of a brick that keeps none, 2^-14.
 float stepOfBrick(uvec2 light)
 {
-    vec3 kept = cachedRadiance(light);
-    bool is_dark = kept == vec3(0.0);
-    return exp2(is_dark ? -14.0 : float(exponentFor(kept, 12)));
+    vec3 cached = cachedRadiance(light);
+    bool is_dark = cached == vec3(0.0);
+    return exp2(is_dark ? -14.0 : float(exponentFor(cached, 12)));
 }
 
 // Adds the light of a sample, rounded at random: thresholds as in radiance/cached_face.glsl. counts: as in BrickSum.

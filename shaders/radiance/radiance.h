@@ -21,24 +21,24 @@
 //
 // A frame takes so many faces as its budget has rays, of those that were hit since the frame before. A sample of a face
 // is a path of one bounce from a random point of it: a ray in a random direction, which brings emission, light from
-// outside of the grid, or what the face that it hits reflects of the cached light there; and a light that is
-// chosen, with a shadow ray to it (path/path.h). So light of one more bounce arrives with each frame.
+// outside of the grid, or what the face that it hits reflects of the cached light there; and a light that is chosen,
+// with a shadow ray to it (path/path.h). So light of one more bounce arrives with each frame.
 //
 // A face that has had no sample keeps no light. A path that hits one takes the light of the faces beside it, in the
 // same plane, if they have had any; else it goes on by a second ray and a second light, and ends there. If it took no
 // light, samples would be too dark until all faces have had some, and means would keep that for long.
 //
-//   radiance/request      faces that the camera sees: into the table, and into the frame's list
+//   radiance/request   faces that the camera sees: into the table, and into the frame's list
 //   radiance/count     counts the faces of the list by their rank; its last threads find the rank that the budget ends
-//   radiance/select      lists the faces of a lower rank
+//   radiance/select    lists the faces of a lower rank
 //   radiance/begin     a path from each of them; the brick of level 1 around it: into table and list
 //   radiance/surround  the bricks of a level around those of the one before that are listed: into table and list
 //     path/map_light, path/voxel_light, trace/rays, path/connect      light that was chosen
 //     trace/rays, radiance/gather            what the paths hit, and the cached light there
 //     path/miss, path/emitter                light that they have met
 //   radiance/extend    paths that have hit a face without light; for their second rays, the same passes again
-//   radiance/update     adds the samples to the means of faces, and to the sums of bricks of level 1
-//   radiance/update_bricks      adds the sums to the means of bricks of a level, and to the sums of the next level
+//   radiance/update    adds the samples to the means of faces, and to the sums of bricks of level 1
+//   radiance/update_bricks   adds the sums to the means of bricks of a level, and to the sums of the next level
 //   radiance/evict     into another table, without faces that no ray has hit for long; only while something moves
 //   radiance/view, radiance/direct         what the camera sees of it, and of lamps and the sky
 //   radiance/cones     in place of what it reflects in radiance/view: light through a cone, once for each of six

@@ -19,3 +19,5 @@ ZVO_DESTROYS(zvoDynamicTreeDestroy, ZvoDynamicTree)
 ZVO_DESTROYS(zvoEnvironmentDestroy, ZvoEnvironment)
 ZVO_DESTROYS(zvoTracerDestroy, ZvoTracer)
 ZVO_DESTROYS(zvoRadianceCacheDestroy, ZvoRadianceCache)
+
+#undef ZVO_DESTROYS

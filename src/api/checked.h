@@ -38,6 +38,7 @@ const Mat4& checkedTransform(const Mat4& transform, const std::string& what);
 /// Checks that a number, a float or a double, is finite and not negative.
 template <typename Number> Number checkedAmount(Number amount, const char* name);
 
+/// Checks that a number is not above the most that is allowed.
 void requireAtMost(std::uint64_t count, std::uint64_t most, const char* name);
 
 const TreeBuildInfo& checked(const TreeBuildInfo& info);

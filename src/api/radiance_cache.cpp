@@ -57,35 +57,37 @@ void RadianceCache::Impl::update(Recorder& recorder, AnyTree& any_tree, Environm
     FrameOptions options;
     options.integrator = Integrator::Cache;
     options.radiance = {.faces = checked(frame_info).rays, .seed = frame_info.seed};
-    recording(recorder,
-              [&](Recorder::Impl& impl)
-              {
-                  learn();
-                  if (m_frame && m_frame->is_lost)
-                  {
-                      renderer->forgetNodePaths();
-                      renderer->cache().forget();
-                  }
-                  m_frame = impl.frame;
-                  environment.enter(impl.frame);
-                  try
-                  {
-                      follow({shown.identity, shown.edit_count, tree.grid, tree.version});
-                      if (info.faces != 0)
-                      {
-                          renderer->cache().reserveFaces(info.faces);
-                      }
-                      renderer->settle(impl.graph, {tree, camera, &environment.light}, options);
-                      publish(impl.graph, radianceCacheTable(renderer->cache(), environment.light));
-                      report(impl);
-                  }
-                  catch (...) // buffers may have been replaced, and hold no light that is complete
-                  {
-                      renderer->cache().forget();
-                      publish(impl.graph, {});
-                      throw;
-                  }
-              });
+    recording(
+        recorder,
+        [&](Recorder::Impl& impl)
+        {
+            learn();
+            if (m_frame && m_frame->is_lost)
+            {
+                renderer->forgetNodePaths();
+                renderer->cache().forget();
+            }
+            m_frame = impl.frame;
+            environment.enter(impl.frame);
+            try
+            {
+                follow(
+                    {.tree = shown.identity, .changes = shown.edit_count, .grid = tree.grid, .version = tree.version});
+                if (info.faces != 0)
+                {
+                    renderer->cache().reserveFaces(info.faces);
+                }
+                renderer->settle(impl.graph, {tree, camera, &environment.light}, options);
+                publish(impl.graph, radianceCacheTable(renderer->cache(), environment.light));
+                report(impl);
+            }
+            catch (...) // buffers may have been replaced, and hold no light that is complete
+            {
+                renderer->cache().forget();
+                publish(impl.graph, {});
+                throw;
+            }
+        });
 }
 
 // Tells the cache what it does not see itself.

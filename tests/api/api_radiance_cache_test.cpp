@@ -42,7 +42,7 @@ constexpr std::uint32_t kSlots = 40000; // more than there are
 // Push constants of tests/glsl/host/cached_faces.comp.
 struct FacesPush
 {
-    std::uint64_t kept;
+    std::uint64_t cache;
     std::uint64_t results;
     std::uint32_t slots;
     std::uint32_t unused;

@@ -50,7 +50,7 @@ struct Found
 
 struct ConesPush
 {
-    gpu::ConstPtr<gpu::RadianceCacheTable> kept;
+    gpu::ConstPtr<gpu::RadianceCacheTable> cache;
     gpu::ConstPtr<gpu::TreeTable> tree;
     gpu::ConstPtr<Cone> cones;
     gpu::Ptr<Found> results;

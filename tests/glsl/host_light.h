@@ -26,7 +26,7 @@ inline DeviceEnvironment skyOf(const glm::vec3& radiance, const Sun& sun = {})
     return sky;
 }
 
-/// Light that so many frames from a view have kept on the voxels of a tree.
+/// The radiance cache of a tree after so many frames from a view.
 struct HostLight
 {
     HostLight(const DeviceTree& tree, DeviceEnvironment&& outside, const ViewCamera& view, std::uint32_t frames)
@@ -50,14 +50,14 @@ struct HostLight
 
     [[nodiscard]] gpu::RadianceCacheTable table() { return radianceCacheTable(tracer.cache(), environment); }
 
-    /// Runs a host's kernel with a thread for each of given. Its push constants are kept, tree, given, results, their
+    /// Runs a host's kernel with a thread for each of given. Its push constants are cache, tree, given, results, their
     /// number and more.
     template <typename Push, typename Result, typename Given, typename... More>
-    std::vector<Result> run(const char* kernel, const DeviceTree& tree, const gpu::RadianceCacheTable& kept,
+    std::vector<Result> run(const char* kernel, const DeviceTree& tree, const gpu::RadianceCacheTable& cache,
                             const std::vector<Given>& given, const More&... more)
     {
         const auto cache_table =
-            deviceOfHosts().makeBuffer<gpu::RadianceCacheTable>("radiance cache", std::vector{kept});
+            deviceOfHosts().makeBuffer<gpu::RadianceCacheTable>("radiance cache", std::vector{cache});
         const vk::BufferOf<gpu::TreeTable> tree_table = tableOf(tree);
         const auto given_buffer = deviceOfHosts().makeBuffer("given", std::span<const Given>(given));
         vk::BufferOf<Result> results(deviceOfHosts().device(), "results", given.size());

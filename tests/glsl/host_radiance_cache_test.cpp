@@ -39,7 +39,7 @@ struct Light
 
 struct Push
 {
-    gpu::ConstPtr<gpu::RadianceCacheTable> kept;
+    gpu::ConstPtr<gpu::RadianceCacheTable> cache;
     gpu::ConstPtr<gpu::TreeTable> tree;
     gpu::ConstPtr<Place> places;
     gpu::Ptr<Light> results;
@@ -68,10 +68,10 @@ struct Lit : test::HostLight
         return at(places, table(), rays, reach);
     }
 
-    std::vector<Light> at(const std::vector<Place>& places, const gpu::RadianceCacheTable& kept, std::uint32_t rays,
+    std::vector<Light> at(const std::vector<Place>& places, const gpu::RadianceCacheTable& cache, std::uint32_t rays,
                           float reach)
     {
-        return run<Push, Light>("host/radiance_cache", tree, kept, places, rays, reach, gpu::uint{7});
+        return run<Push, Light>("host/radiance_cache", tree, cache, places, rays, reach, gpu::uint{7});
     }
 
     DeviceTree tree;
@@ -179,7 +179,7 @@ TEST(HostRadianceCache, OfTheSunIsWhereItsShadowIsNot)
     EXPECT_GT(lights[1].irradiance.r, 0.005F) << "from the floor beside";
     EXPECT_NEAR(lights[1].gathered.r, lights[1].irradiance.r, 0.25F * lights[1].irradiance.r);
     EXPECT_LT(lights[1].open, 0.8F);
-    EXPECT_NEAR(lights[2].irradiance.w, kOfBrick, 1e-6F) << "nothing is kept below but under the box";
+    EXPECT_NEAR(lights[2].irradiance.w, kOfBrick, 1e-6F) << "nothing is cached below but under the box";
     EXPECT_LT(lights[2].irradiance.r, 0.3F);
     EXPECT_EQ(lights[2].met, glm::vec4(0.0F, 0.0F, 0.0F, 1.0F)) << "the sky, without the sun";
 }

@@ -26,10 +26,11 @@ constexpr std::uint32_t kEdgeMax = 16384; // of a window
 constexpr double kWheelMax = 1000;
 constexpr std::array<std::string_view, kMouseButtonCount> kButtonNames = {"left", "right", "middle"};
 
+// Whether all bytes but one are further bytes of a character.
 bool isOneCharacter(std::string_view utf8)
 {
-    return std::ranges::count_if(utf8, [](char byte) { return (byte & 0xC0) != 0x80; }) ==
-           1; // not a further byte of one
+    const auto begins = [](char byte) { return (byte & 0xC0) != 0x80; };
+    return std::ranges::count_if(utf8, begins) == 1;
 }
 
 Modifiers readModifiers(const JsonCursor& event)

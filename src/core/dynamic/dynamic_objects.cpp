@@ -112,7 +112,8 @@ DynamicObjectId DynamicObjects::add(std::shared_ptr<const DynamicMesh> mesh, Pos
                     "the dynamic object was uploaded without attributes, the static octree or DAG has them");
     }
     checkPose(*mesh, pose);
-    // Frames in flight may still use what nothing keeps any more.
+    // Frames in flight may still use what nothing keeps any more. The queue needs host memory for that; without any,
+    // the program ends.
     const auto drop = [&queue = m_deletion_queue](Object* dropped) { queue.keep(std::unique_ptr<Object>(dropped)); };
     const std::shared_ptr<Object> object(new Object(), drop);
     object->buffers = makeDynamicObject(m_device, mesh->plan, mesh->uploaded, mesh->deform);

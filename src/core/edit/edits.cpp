@@ -102,7 +102,7 @@ bool Edits::dab(vk::FrameGraph& graph, const Brush& brush, const vk::BufferOf<gp
 
 // The slot that was shown when the frame began. Its room is kept, as the frame may be lost after the device has run
 // some of it.
-std::uint32_t Edits::cachedSlot() const
+std::uint32_t Edits::keptSlot() const
 {
     const bool is_kept = m_before && m_before->state.region == m_now.region; // otherwise it stands elsewhere
     return (is_kept ? m_before->state : m_now).history.slot();
@@ -117,7 +117,7 @@ bool Edits::tryDab(vk::FrameGraph& graph, const Brush& brush, const DabExtent& e
         begin(graph, extent);
     }
     const bool attributes = m_overlays.hasAttributes();
-    const EditTop top = m_now.history.topAbove(cachedSlot());
+    const EditTop top = m_now.history.topAbove(keptSlot());
     const EditTop needed = {top.nodes + extent.node_bound, attributes ? top.voxels + extent.voxel_bound : 0};
     if ((needed.nodes > m_now.region->node_capacity || needed.voxels > m_now.region->voxel_capacity) &&
         !makeRoom(graph, needed))
@@ -133,7 +133,7 @@ bool Edits::tryDab(vk::FrameGraph& graph, const Brush& brush, const DabExtent& e
         }
         m_buffers = std::move(larger);
     }
-    DabSlots slots = {.from = m_now.history.slot(), .kept = cachedSlot()};
+    DabSlots slots = {.from = m_now.history.slot(), .kept = keptSlot()};
     slots.to = m_now.history.push(extent.node_bound, attributes ? extent.voxel_bound : 0, slots.kept);
     m_now.is_compact = false;
     m_has_written = true;

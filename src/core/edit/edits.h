@@ -97,7 +97,7 @@ private:
     };
 
     [[nodiscard]] EditSite site();
-    [[nodiscard]] std::uint32_t cachedSlot() const;
+    [[nodiscard]] std::uint32_t keptSlot() const;
     [[nodiscard]] Saved save() const { return {m_now, m_left.size()}; }
     void saveFrame();
     void restore(Saved saved);

@@ -57,9 +57,9 @@ public:
                 vk::BufferOf<gpu::DispatchArgs>* ray_lists = nullptr);
 
     /// Records the passes that make the picture of primary rays, or add a sample to each pixel of samples(). Paths
-    /// begin anew by themselves (PathTracer::addSample()); the radiance cache does so after beginPicture(), and its
-    /// samples go through other points of the pixels, the same of each. Throws Error{Memory}. Cost: that of the
-    /// integrator.
+    /// begin anew by themselves (PathTracer::addSample()); pictures by the radiance cache do so after beginPicture(),
+    /// and their samples go through other points of the pixels, the same of each. Throws Error{Memory}. Cost: that of
+    /// the integrator.
     void addSample(vk::FrameGraph& graph, const FrameSubject& subject, const FrameOptions& options,
                    vk::BufferOf<gpu::DispatchArgs>* ray_lists = nullptr);
 

@@ -63,7 +63,8 @@ struct RootEntry
 /// bytes_max bytes, unless the pushed entry alone has more. The oldest entries are dropped for that. Regions that wait,
 /// or are kept for pending entries, do not count towards bytes_max; waitingBytes() tells their size.
 ///
-/// undo(), redo() and current() take constant time, everything else at most n log n for n entries.
+/// current() takes constant time, undo() and redo() that of the entry's layers, everything else at most n log n for n
+/// entries.
 ///
 /// Layer states, with what they keep, live as long as current(), undo() or redo() may return them, also after fail() or
 /// frameLost(), and until their own update has ended.

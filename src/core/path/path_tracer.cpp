@@ -388,7 +388,7 @@ void PathTracer::shade(vk::FrameGraph& graph, const Batch& batch, std::uint32_t 
                            .emission_words = pass.readIf(emits, tree.emission_words),
                            .hits = pass.read(paths.hits),
                            .gives = pass.read(batch.environment.gives()),
-                           .light_nodes = pass.readIf(emits, m_lights.nodes()),
+                           .light_nodes = emits ? pass.read(m_lights.nodes()) : gpu::ConstPtr<gpu::LightNode>{},
                            .rays = pass.read(paths.rays.at(bounce % kPathLists)),
                            .states = pass.read(paths.states.at(bounce % kPathLists)),
                            .next_rays = pass.readWrite(paths.rays.at((bounce + 1) % kPathLists)),

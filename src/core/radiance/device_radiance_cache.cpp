@@ -12,7 +12,7 @@ namespace
 
 // While something moves, faces that no ray has hit in so many frames are left out every so many frames.
 constexpr std::uint32_t kPurgeFrames = 128;
-constexpr std::uint32_t kPurgeAge = 256;
+constexpr std::uint32_t kEvictAge = 256;
 
 // The samples that means count after a change, and for how many frames.
 constexpr std::uint32_t kChangedSamples = 16;
@@ -89,7 +89,7 @@ void DeviceRadianceCache::follow(vk::FrameGraph& graph, const DeviceTree& tree, 
     {
         m_move_frame.reset();
         m_change_frame.reset();
-        m_purge_frame = 0;
+        m_evict_frame = 0;
     }
     else
     {
@@ -104,24 +104,24 @@ void DeviceRadianceCache::follow(vk::FrameGraph& graph, const DeviceTree& tree, 
     }
     m_environment_version = environment.version();
     m_tree_version = tree.version;
-    const bool has_moved = m_move_frame && *m_move_frame >= m_purge_frame;
-    if (has_moved && m_frame - m_purge_frame >= kPurgeFrames)
+    const bool has_moved = m_move_frame && *m_move_frame >= m_evict_frame;
+    if (has_moved && m_frame - m_evict_frame >= kPurgeFrames)
     {
-        purge(graph, kPurgeAge);
+        evict(graph, kEvictAge);
     }
     else if (std::exchange(m_has_new_lists, false) && m_frame != 0)
     {
-        purge(graph, gpu::kMarkFrames); // of marks alone
+        evict(graph, gpu::kMarkFrames); // of marks alone
     }
 }
 
 // Records the pass that makes the table anew without lists, and without faces which no ray has hit for long, such as
 // those that moving objects have left.
-void DeviceRadianceCache::purge(vk::FrameGraph& graph, std::uint32_t age_max)
+void DeviceRadianceCache::evict(vk::FrameGraph& graph, std::uint32_t age_max)
 {
     std::swap(m_table, m_other_table);
-    purgeFaces(graph, *m_other_table, *m_table, *m_lists, m_frame, age_max);
-    m_purge_frame = m_frame;
+    evictFaces(graph, *m_other_table, *m_table, *m_lists, m_frame, age_max);
+    m_evict_frame = m_frame;
     m_has_new_lists = false;
 }
 

@@ -70,7 +70,7 @@ public:
 
 private:
     void follow(vk::FrameGraph& graph, const DeviceTree& tree, const DeviceEnvironment& environment);
-    void purge(vk::FrameGraph& graph, std::uint32_t age_max);
+    void evict(vk::FrameGraph& graph, std::uint32_t age_max);
 
     vk::Device& m_device;
     vk::DeletionQueue* m_deletion_queue;
@@ -84,7 +84,7 @@ private:
 
     std::uint64_t m_tree_version = 0; // of the last frame, like the next
     std::uint64_t m_environment_version = 0;
-    std::uint32_t m_purge_frame = 0;             // of the last purge, or of the first movement since then
+    std::uint32_t m_evict_frame = 0;             // of the last purge, or of the first movement since then
     std::optional<std::uint32_t> m_move_frame;   // when the tree was another one than in the frame before
     std::optional<std::uint32_t> m_change_frame; // when other things changed
 };

@@ -24,13 +24,13 @@ std::uint64_t quadsOf(std::uint32_t width, std::uint32_t height)
 
 // How many pixels of each 2x2 list their face in a frame: the camera lists about as many faces as a frame may take, or
 // one for each 2x2 where that is more.
-std::uint32_t wantingTurns(std::uint32_t width, std::uint32_t height, std::uint32_t faces)
+std::uint32_t requestTurns(std::uint32_t width, std::uint32_t height, std::uint32_t faces)
 {
     return static_cast<std::uint32_t>(std::clamp<std::uint64_t>(faces / quadsOf(width, height), 1, 4));
 }
 
 // The list of the faces that a frame takes, as a bounce of PathBatch::lists.
-std::uint32_t wantedList(std::uint32_t frame)
+std::uint32_t requestedList(std::uint32_t frame)
 {
     return gpu::kWantedEven + frame % 2;
 }
@@ -51,17 +51,17 @@ void clear(vk::FrameGraph& graph, const RadianceFrame& frame)
         return;
     }
     graph.fill(batch.lists, 0, 0, gpu::kWantedEven * kWords);
-    graph.fill(batch.lists, 0, wantedList(frame.number + 1) * kWords, kWords);
+    graph.fill(batch.lists, 0, requestedList(frame.number + 1) * kWords, kWords);
     graph.fill(batch.lists, 0, gpu::kFirstBricks * kWords, gpu::kBrickLevels * kWords);
     graph.fill(frame.table.counters, 0, gpu::kCountersOfFrame,
                sizeof(gpu::RadianceCounters) / sizeof(gpu::uint) - gpu::kCountersOfFrame);
 }
 
-void want(vk::FrameGraph& graph, const RadianceFrame& frame)
+void request(vk::FrameGraph& graph, const RadianceFrame& frame)
 {
     vk::Pass pass = graph.addPass(
         gpu::radiance::Request{.orthographic = frame.camera.orthographic,
-                               .turns = wantingTurns(frame.seen.width, frame.seen.height, frame.lists.faces)});
+                               .turns = requestTurns(frame.seen.width, frame.seen.height, frame.lists.faces)});
     pass.dispatchIndirect(frame.seen.args, 0,
                           {.faces = pass.readWrite(frame.table.faces),
                            .states = pass.readWrite(frame.table.states),
@@ -80,11 +80,11 @@ void want(vk::FrameGraph& graph, const RadianceFrame& frame)
                           frame.seen.live.count());
 }
 
-void tally(vk::FrameGraph& graph, const RadianceFrame& frame)
+void count(vk::FrameGraph& graph, const RadianceFrame& frame)
 {
     PathBatch& batch = frame.lists.batch;
     vk::Pass pass = graph.addPass(gpu::radiance::Count{});
-    pass.dispatchIndirect(batch.lists, listArgs(wantedList(frame.number), gpu::kListPaths),
+    pass.dispatchIndirect(batch.lists, listArgs(requestedList(frame.number), gpu::kListPaths),
                           {.faces = pass.read(frame.table.faces),
                            .states = pass.read(frame.table.states),
                            .wanted = pass.read(frame.lists.wanted.at(frame.number % 2)),
@@ -95,11 +95,11 @@ void tally(vk::FrameGraph& graph, const RadianceFrame& frame)
                           divideUp(frame.lists.wanted[0].count(), gpu::kPathGroup));
 }
 
-void take(vk::FrameGraph& graph, const RadianceFrame& frame)
+void select(vk::FrameGraph& graph, const RadianceFrame& frame)
 {
     PathBatch& batch = frame.lists.batch;
     vk::Pass pass = graph.addPass(gpu::radiance::Select{});
-    pass.dispatchIndirect(batch.lists, listArgs(wantedList(frame.number), gpu::kListPaths),
+    pass.dispatchIndirect(batch.lists, listArgs(requestedList(frame.number), gpu::kListPaths),
                           {.faces = pass.read(frame.table.faces),
                            .states = pass.readWrite(frame.table.states),
                            .wanted = pass.read(frame.lists.wanted.at(frame.number % 2)),
@@ -120,7 +120,7 @@ void begin(vk::FrameGraph& graph, const RadianceFrame& frame)
                            .states = pass.readWrite(frame.table.states),
                            .counters = pass.readWrite(frame.table.counters),
                            .gives = pass.read(frame.environment.gives()),
-                           .light_nodes = pass.readIf(emits, frame.lights.nodes()),
+                           .light_nodes = emits ? pass.read(frame.lights.nodes()) : gpu::ConstPtr<gpu::LightNode>{},
                            .lists = pass.readWrite(batch.lists),
                            .numbers = pass.readWrite(batch.numbers),
                            .rays = pass.readWrite(batch.rays[0]),
@@ -200,7 +200,7 @@ void extend(vk::FrameGraph& graph, const RadianceFrame& frame)
                            .attributes = readVoxelAttributes(pass, frame.tree),
                            .hits = pass.read(batch.hits),
                            .gives = pass.read(frame.environment.gives()),
-                           .light_nodes = pass.readIf(emits, frame.lights.nodes()),
+                           .light_nodes = emits ? pass.read(frame.lights.nodes()) : gpu::ConstPtr<gpu::LightNode>{},
                            .rays = pass.read(batch.rays[0]),
                            .path_states = pass.read(batch.states[0]),
                            .next_rays = pass.readWrite(batch.rays[1]),
@@ -215,46 +215,45 @@ void extend(vk::FrameGraph& graph, const RadianceFrame& frame)
                           divideUp(frame.lists.faces, gpu::kPathGroup));
 }
 
-void apply(vk::FrameGraph& graph, const RadianceFrame& frame)
+void update(vk::FrameGraph& graph, const RadianceFrame& frame)
 {
     PathBatch& batch = frame.lists.batch;
+    const std::uint32_t window = std::clamp(frame.window, 1U, gpu::kCachedWeightMax);
     vk::Pass pass = graph.addPass(gpu::radiance::Update{});
-    gpu::RadianceUpdateParams params{};
-    params.faces = pass.readWrite(frame.table.faces);
-    params.states = pass.readWrite(frame.table.states);
-    params.numbers = pass.read(batch.numbers);
-    params.radiance = pass.read(batch.radiance);
-    params.lists = pass.readWrite(batch.lists);
-    params.sums = pass.readWrite(frame.lists.sums);
-    params.batch = static_cast<std::uint32_t>(batch.capacity());
-    params.run_count = frame.table.run_count;
-    params.frame = frame.number;
-    params.window = std::clamp(frame.window, 1U, gpu::kCachedWeightMax);
-    params.touched_window = frame.moves ? std::min(params.window, gpu::kTouchedSamples) : params.window;
-    params.moved_window = frame.moves ? std::min(params.window, gpu::kMovedSamples) : params.window;
-    pass.dispatchIndirect(batch.lists, listArgs(0, gpu::kListPaths), params,
+    pass.dispatchIndirect(batch.lists, listArgs(0, gpu::kListPaths),
+                          {.faces = pass.readWrite(frame.table.faces),
+                           .states = pass.readWrite(frame.table.states),
+                           .numbers = pass.read(batch.numbers),
+                           .radiance = pass.read(batch.radiance),
+                           .lists = pass.readWrite(batch.lists),
+                           .sums = pass.readWrite(frame.lists.sums),
+                           .batch = static_cast<std::uint32_t>(batch.capacity()),
+                           .run_count = frame.table.run_count,
+                           .frame = frame.number,
+                           .window = window,
+                           .touched_window = frame.moves ? std::min(window, gpu::kTouchedSamples) : window,
+                           .moved_window = frame.moves ? std::min(window, gpu::kMovedSamples) : window},
                           divideUp(frame.lists.faces, gpu::kPathGroup));
 }
 
-void fold(vk::FrameGraph& graph, const RadianceFrame& frame, std::uint32_t level)
+void updateBricks(vk::FrameGraph& graph, const RadianceFrame& frame, std::uint32_t level)
 {
     PathBatch& batch = frame.lists.batch;
     const auto windowOf = [&](std::uint32_t samples)
     { return std::clamp(gpu::kBrickFaces * std::min(samples, frame.window), 1U, gpu::kCachedWeightMax); };
     vk::Pass pass = graph.addPass(gpu::radiance::UpdateBricks{});
-    gpu::RadianceUpdateBricksParams params{};
-    params.faces = pass.readWrite(frame.table.faces);
-    params.states = pass.readWrite(frame.table.states);
-    params.bricks = pass.read(frame.lists.bricks);
-    params.lists = pass.readWrite(batch.lists);
-    params.sums = pass.readWrite(frame.lists.sums);
-    params.batch = static_cast<std::uint32_t>(batch.capacity());
-    params.run_count = frame.table.run_count;
-    params.frame = frame.number;
-    params.level = level;
-    params.window = windowOf(frame.window);
-    params.moved_window = frame.moves ? windowOf(gpu::kMovedSamples) : params.window;
-    pass.dispatchIndirect(batch.lists, listArgs(gpu::kFirstBricks + level - 1, gpu::kListPaths), params,
+    pass.dispatchIndirect(batch.lists, listArgs(gpu::kFirstBricks + level - 1, gpu::kListPaths),
+                          {.faces = pass.readWrite(frame.table.faces),
+                           .states = pass.readWrite(frame.table.states),
+                           .bricks = pass.read(frame.lists.bricks),
+                           .lists = pass.readWrite(batch.lists),
+                           .sums = pass.readWrite(frame.lists.sums),
+                           .batch = static_cast<std::uint32_t>(batch.capacity()),
+                           .run_count = frame.table.run_count,
+                           .frame = frame.number,
+                           .level = level,
+                           .window = windowOf(frame.window),
+                           .moved_window = windowOf(frame.moves ? gpu::kMovedSamples : frame.window)},
                           divideUp(frame.lists.faces, gpu::kPathGroup));
 }
 
@@ -280,7 +279,7 @@ RadianceLists::RadianceLists(vk::Device& device, std::uint32_t face_count, std::
 {
     // The camera lists a face for each pixel that takes part, and the paths of a frame one for each of their rays.
     const std::uint64_t wanted_max =
-        kFaceRays * std::uint64_t{faces} + quadsOf(width, height) * wantingTurns(width, height, faces);
+        kFaceRays * std::uint64_t{faces} + quadsOf(width, height) * requestTurns(width, height, faces);
     const std::uint64_t brick_count = gpu::kBrickLevels * std::uint64_t{faces};
     device.memory().require(PathBatch::bytesFor(faces, kFaceRays) + faces * sizeof(gpu::uint) +
                                 2 * wanted_max * sizeof(gpu::uint) +
@@ -301,7 +300,7 @@ std::uint64_t RadianceLists::bytes() const
     return wanted[0].bytes() + wanted[1].bytes() + batch.bytes() + unlit.bytes() + bricks.bytes() + sums.bytes();
 }
 
-void purgeFaces(vk::FrameGraph& graph, const RadianceTable& from, RadianceTable& to, RadianceLists& lists,
+void evictFaces(vk::FrameGraph& graph, const RadianceTable& from, RadianceTable& to, RadianceLists& lists,
                 std::uint32_t frame, std::uint32_t age_max)
 {
     graph.fill(to.faces, 0);
@@ -323,9 +322,9 @@ void purgeFaces(vk::FrameGraph& graph, const RadianceTable& from, RadianceTable&
 void sampleFaces(vk::FrameGraph& graph, const RadianceFrame& frame)
 {
     clear(graph, frame);
-    want(graph, frame);
-    tally(graph, frame);
-    take(graph, frame);
+    request(graph, frame);
+    count(graph, frame);
+    select(graph, frame);
     begin(graph, frame);
     for (std::uint32_t level = 2; level <= gpu::kBrickLevels; ++level)
     {
@@ -351,10 +350,10 @@ void sampleFaces(vk::FrameGraph& graph, const RadianceFrame& frame)
         gather(graph, frame, ray);
         addMetLight(graph, light, batch, ray, ray);
     }
-    apply(graph, frame);
+    update(graph, frame);
     for (std::uint32_t level = 1; level <= gpu::kBrickLevels; ++level)
     {
-        fold(graph, frame, level);
+        updateBricks(graph, frame, level);
     }
 }
 

@@ -87,7 +87,7 @@ void sampleFaces(vk::FrameGraph& graph, const RadianceFrame& frame);
 
 /// Records the passes that fill a table with those faces of another one that a ray has hit in the last age_max frames
 /// before `frame`. They empty the lists, which named slots of the other table.
-void purgeFaces(vk::FrameGraph& graph, const RadianceTable& from, RadianceTable& to, RadianceLists& lists,
+void evictFaces(vk::FrameGraph& graph, const RadianceTable& from, RadianceTable& to, RadianceLists& lists,
                 std::uint32_t frame, std::uint32_t age_max);
 
 } // namespace zvo

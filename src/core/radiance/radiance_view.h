@@ -30,7 +30,7 @@ public:
     /// Begins a new picture with the next frame.
     void begin() { m_frame_count = 0; }
 
-    /// Records the passes that add what the camera sees, of the radiance cache and directly, to the picture. cache:
+    /// Records the passes that add what the camera sees, by the radiance cache and directly, to the picture. cache:
     /// after its update() for the same tree and environment. seen: filled by tracePrimary() of the tree, without a
     /// level of detail, in the picture's size. Cost: pixels; for CacheView::Cones, six cones and a ray to the sun for
     /// each, which follow their rays in one dispatch, however long.

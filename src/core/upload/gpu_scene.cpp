@@ -214,7 +214,7 @@ std::vector<std::uint32_t> packBytes(const std::vector<std::uint8_t>& bytes)
     return words;
 }
 
-// Adds the tables of colours, and that of the buffers, which all others are in already.
+// Adds the tables of colours, and then scene.view, the table of all buffers. All others must be there.
 void addTables(vk::Uploader& device, GpuScene& scene)
 {
     const auto& to_linear = srgbToLinearTable();

@@ -65,7 +65,7 @@ namespace
 constexpr int kChannels = 4;
 constexpr std::size_t kDecoderBytesMin = std::size_t{1} << 16U; // for its tables
 
-/// For stb's writers: appends to the vector of bytes that is the context.
+// Appends to the vector of bytes that is the context, as stb's writers want it.
 void appendBytes(void* context, void* data, int count)
 {
     auto& bytes = *static_cast<std::vector<std::uint8_t>*>(context);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "io/voxel/glb_write.h"
 
+#include "core/base/morton.h"
 #include "core/tree/tree_build.h"
 #include "io/image/srgb.h"
 #include "io/voxel/voxel_bytes.h"

@@ -2,7 +2,6 @@
 // What the writers of voxel files share: the voxels with their colours, and bytes that are passed on in pieces.
 #pragma once
 
-#include "core/base/morton.h"
 #include "core/tree/tree_data.h"
 
 #include <bit>

@@ -32,7 +32,7 @@ layout(buffer_reference, scalar, buffer_reference_align = 4) writeonly buffer Re
 
 layout(push_constant, scalar) uniform Push
 {
-    zvo_RadianceCacheTable_ConstPtr kept;
+    zvo_RadianceCacheTable_ConstPtr cache;
     zvo_TreeTable_ConstPtr tree;
     Cones cones;
     Results results;
@@ -55,13 +55,13 @@ void main()
     if (i >= count)
         return;
     Cone at = cones.cone[i];
-    Found found = Found(zvo_cone(kept, tree, at.origin, at.direction, at.aperture, at.reach, 1u), vec4(0.0), vec4(0.0));
+    Found found = Found(zvo_cone(cache, tree, at.origin, at.direction, at.aperture, at.reach, 1u), vec4(0.0), vec4(0.0));
     for (uint k = 0u; k < rays; ++k)
     {
-        found.mean += zvo_cone(kept, tree, at.origin, at.direction, at.aperture, at.reach, i * rays + k) / float(rays);
+        found.mean += zvo_cone(cache, tree, at.origin, at.direction, at.aperture, at.reach, i * rays + k) / float(rays);
         vec3 direction = directionIn(at, k);
         zvo_Hit hit = zvo_trace(tree, at.origin, direction, 0.0, at.reach);
-        vec4 met = zvo_cachedRadiance(kept, tree, hit, at.origin, direction);
+        vec4 met = zvo_cachedRadiance(cache, tree, hit, at.origin, direction);
         found.rays += vec4(met.rgb, zvo_isHit(hit) ? 0.0 : 1.0) / float(rays);
     }
     results.found[i] = found;

@@ -31,7 +31,7 @@ layout(buffer_reference, scalar, buffer_reference_align = 4) writeonly buffer Li
 
 layout(push_constant, scalar) uniform Push
 {
-    zvo_RadianceCacheTable_ConstPtr kept;
+    zvo_RadianceCacheTable_ConstPtr cache;
     zvo_TreeTable_ConstPtr tree;
     Places places;
     Lights results;
@@ -48,10 +48,10 @@ void main()
         return;
     Place at = places.place[i];
     Light light;
-    light.irradiance = zvo_irradiance(kept, tree, at.position, at.normal);
-    light.gathered = zvo_gatherIrradiance(kept, tree, at.position, at.normal, rays, seed + i);
+    light.irradiance = zvo_irradiance(cache, tree, at.position, at.normal);
+    light.gathered = zvo_gatherIrradiance(cache, tree, at.position, at.normal, rays, seed + i);
     zvo_Hit hit = zvo_trace(tree, at.position, at.direction, 0.0, zvo_kTraceTimeMax);
-    light.met = zvo_cachedRadiance(kept, tree, hit, at.position, at.direction);
+    light.met = zvo_cachedRadiance(cache, tree, hit, at.position, at.direction);
     light.open = zvo_occlusion(tree, at.position, at.normal, rays, reach, seed + i);
     results.light[i] = light;
 }

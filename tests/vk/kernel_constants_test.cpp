@@ -55,7 +55,7 @@ static_assert(!HasMisspeltConstant<Specialized> && !HasFourConstants<Specialized
 static_assert(sizeof(AsLargeAsCopyParams) == sizeof(gpu::CopyParams));
 static_assert(ScaleTakes<gpu::CopyParams> && !ScaleTakes<AsLargeAsCopyParams> && !ScaleTakes<gpu::FillParams>);
 
-TEST(KernelDeclaration, ConstantsReachTheKernelByName)
+TEST(KernelConstants, ReachTheKernelByName)
 {
     vk::HeadlessDevice& device = test::device();
     const auto run = [&](const Specialized& kernel)
