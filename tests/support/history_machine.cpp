@@ -4,7 +4,6 @@
 #include <rapidcheck.h>
 
 #include <algorithm>
-#include <ranges>
 
 namespace zvo::test
 {
@@ -315,7 +314,7 @@ void HistoryMachine::checkLayers()
     }
     expected.erase(0);
     std::erase_if(m_kept, [](const auto& entry) { return entry.second.expired(); });
-    RC_ASSERT(std::ranges::equal(std::views::keys(m_kept), expected));
+    RC_ASSERT(std::ranges::equal(m_kept, expected, {}, [](const auto& entry) { return entry.first; }));
 }
 
 } // namespace zvo::test

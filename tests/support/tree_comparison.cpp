@@ -59,8 +59,13 @@ void TreeComparison::pictures(const ViewCamera& close)
 
 void TreeComparison::views(const ViewCamera& view, bool must_hit)
 {
+    const bool has_updates = m_subject.tree.hasOverlays() != m_expected.tree.hasOverlays();
     for (const View shown : kComparedViews)
     {
+        if (shown == View::Origin && has_updates) // shows which leaves updates have made: what was rebuilt has none
+        {
+            continue;
+        }
         TraceOptions options;
         options.view = shown;
         options.occlusion_rays = 2;
