@@ -190,7 +190,7 @@ TEST(ApiContract, EveryAllocationOfTheDriverMayFail)
 
 TEST(ApiContract, AllocationsOfTheDriverMayFailWhileKernelsAreMade)
 {
-    test::Sweep sweep(61); // making a context takes time
+    test::Sweep sweep(61, 13); // making a context takes time
     bool was_reached = true;
     std::uint64_t failures = 0;
     for (std::uint64_t number = sweep.first(); was_reached; number += sweep.step())
