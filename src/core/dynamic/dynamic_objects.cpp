@@ -144,15 +144,20 @@ void DynamicObjects::remove(DynamicObjectId object)
 
 void DynamicObjects::bringBack(std::span<const LayerState> states)
 {
-    const auto before = std::exchange(m_objects, {});
+    const auto shownBy = [](const LayerState& state) -> const Shown&
+    { return *static_cast<const Shown*>(state.kept.get()); };
+    decltype(m_objects) objects; // made first: without memory for it, what is shown stays
     for (const LayerState& state : states)
     {
-        const auto& shown = *static_cast<const Shown*>(state.kept.get());
-        shown.object->pose = shown.pose;
-        shown.object->version = state.version;
-        m_objects[state.layer] = shown.object;
+        objects[state.layer] = shownBy(state).object;
     }
-    for (const auto& [id, object] : before)
+    for (const LayerState& state : states)
+    {
+        shownBy(state).object->pose = shownBy(state).pose;
+        shownBy(state).object->version = state.version;
+    }
+    m_objects.swap(objects);
+    for (const auto& [id, object] : objects)
     {
         if (!m_objects.contains(id))
         {
