@@ -19,17 +19,12 @@ inline bool isFull()
 }
 
 /// Chooses the calls that fail, one in each run, in tests of all failures. By default every 23rd call fails, the first
-/// of which is another one in each sweep of the same test. ZVO_TEST_SWEEP_START=N begins with call N modulo the step.
-/// With ZVO_TEST_FULL=1 every call fails, or every full_step-th one where runs take long.
+/// of which is another one in each sweep of the same test. With ZVO_TEST_FULL=1 every call fails, or every full_step-th
+/// one where runs take long.
 class Sweep
 {
 public:
-    explicit Sweep(std::uint64_t step = 23, std::uint64_t full_step = 1)
-    {
-        m_step = test::isFull() ? full_step : step;
-        const char* start = std::getenv("ZVO_TEST_SWEEP_START");
-        m_start = start != nullptr ? std::strtoull(start, nullptr, 10) : 0;
-    }
+    explicit Sweep(std::uint64_t step = 23, std::uint64_t full_step = 1) : m_step(test::isFull() ? full_step : step) {}
 
     /// Distance of two calls that fail.
     [[nodiscard]] std::uint64_t step() const { return m_step; }
@@ -45,7 +40,7 @@ public:
 
 private:
     std::uint64_t m_step;
-    std::uint64_t m_start;
+    std::uint64_t m_start = 0; // of the next sweep, modulo m_step
 };
 
 /// Expects that a sweep over an octree's frames made hundreds of calls fail, and calls of every function of frames that
