@@ -110,20 +110,6 @@ void DynamicTree::Impl::publish(vk::FrameGraph& graph)
     graph.update(table, 0, std::span(&values, 1));
 }
 
-ShownTree shownIn(Recorder::Impl& recorder, const Tree& tree)
-{
-    const Tree::Impl& impl = usable(tree);
-    requireSame(recorder.context, impl.context);
-    return {impl.fixed, impl.fixed.version, 0};
-}
-
-ShownTree shownIn(Recorder::Impl& recorder, DynamicTree& tree)
-{
-    DynamicTree::Impl& impl = usable(tree);
-    impl.enter(recorder);
-    return {impl.octree->tree(), impl.identity, impl.edit_count};
-}
-
 DynamicTree::DynamicTree(Recorder& recorder, Tree&& fixed, const DynamicTreeInfo& info)
     : m_impl(recording(recorder,
                        [&](Recorder::Impl& impl) { return std::make_unique<Impl>(impl, std::move(fixed), info); }))

@@ -3,10 +3,9 @@
 
 #include "api/camera.h"
 #include "api/checked.h"
-#include "api/dynamic_tree_impl.h"
 #include "api/environment_impl.h"
 #include "api/radiance_cache_impl.h"
-#include "api/tree_impl.h"
+#include "api/shown_tree.h"
 #include "core/radiance/radiance_cache_table.h"
 
 #include <cstddef>
