@@ -2,6 +2,7 @@
 #include "core/file/attributes_check.h"
 
 #include "core/base/divide_up.h"
+#include "core/file/tree_fault.h"
 
 #include <bit>
 #include <cmath>

@@ -3,6 +3,7 @@
 
 #include "core/base/divide_up.h"
 #include "core/file/attributes_check.h"
+#include "core/file/tree_fault.h"
 
 #include <bit>
 #include <cmath>
