@@ -3,7 +3,7 @@
 #include "baseline/slides_trace.h"
 #include "bench/baseline_comparisons.h"
 #include "common/report.h"
-#include "runtime/trees.h"
+#include "runtime/run_job.h"
 
 #include <utility>
 

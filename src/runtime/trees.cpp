@@ -2,6 +2,7 @@
 #include "runtime/trees.h"
 
 #include "core/attributes/attribute_pack.h"
+#include "runtime/run_job.h"
 #include "zvo/error.h"
 
 #include <utility>

@@ -2,29 +2,17 @@
 // Trees that the device makes and changes, and copies of them on the host. All functions wait for the device.
 #pragma once
 
-#include "core/base/step_job.h"
 #include "core/octree/octree_builder.h"
 #include "core/svdag/svdag_builder.h"
 #include "core/tree/device_tree.h"
 #include "core/tree/tree_data.h"
 #include "vk/headless.h"
 
-#include <concepts>
 #include <cstdint>
 #include <vector>
 
 namespace zvo
 {
-
-/// Runs a job to its end, waiting after each step, and returns the job's result. Throws what the steps throw.
-template <std::derived_from<StepJob> AnyJob> auto runJob(vk::HeadlessDevice& device, AnyJob job)
-{
-    while (!job.isDone())
-    {
-        job.resume(device.run([&](vk::FrameGraph& graph) { job.record(graph); }));
-    }
-    return job.take();
-}
 
 /// Makes the octree of a scene: coverage, numbering and attributes. Throws as OctreeBuilder.
 BuildResult buildOctree(vk::HeadlessDevice& device, const PosedGpuScene& scene, const GridTile& tile,

@@ -2,7 +2,7 @@
 #include "baseline/slides_fixture.h"
 
 #include "baseline/baseline_kernels.h"
-#include "runtime/trees.h"
+#include "runtime/run_job.h"
 #include "support/device.h"
 
 #include <gtest/gtest.h>
