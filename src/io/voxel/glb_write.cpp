@@ -4,7 +4,8 @@
 #include "core/base/morton.h"
 #include "core/tree/tree_build.h"
 #include "io/image/srgb.h"
-#include "io/voxel/voxel_bytes.h"
+#include "io/voxel/colored_voxels.h"
+#include "io/voxel/write_bytes.h"
 #include "zvo/error.h"
 
 #include <algorithm>

@@ -2,7 +2,7 @@
 #include "io/voxel/nvdb_write.h"
 
 #include "core/base/morton.h"
-#include "io/voxel/voxel_bytes.h"
+#include "io/voxel/colored_voxels.h"
 #include "zvo/error.h"
 
 #include <fmt/format.h>

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/tree/tree_data.h"
-#include "io/voxel/voxel_bytes.h"
+#include "io/voxel/write_bytes.h"
 
 namespace zvo
 {

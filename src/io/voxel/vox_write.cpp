@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "core/base/morton.h"
+#include "io/voxel/colored_voxels.h"
 #include "io/voxel/quantize.h"
 #include "io/voxel/vox_file.h"
+#include "io/voxel/write_bytes.h"
 #include "zvo/error.h"
 
 #include <array>

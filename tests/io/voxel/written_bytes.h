@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "io/voxel/voxel_bytes.h"
+#include "core/tree/tree_data.h"
+#include "io/voxel/write_bytes.h"
 
 #include <cstddef>
 #include <span>

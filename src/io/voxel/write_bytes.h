@@ -1,12 +1,9 @@
 // SPDX-License-Identifier: MIT
-// What the writers of voxel files share: the voxels with their colours, and bytes that are passed on in pieces.
+// How the writers of voxel files pass on their bytes.
 #pragma once
-
-#include "core/tree/tree_data.h"
 
 #include <bit>
 #include <cstddef>
-#include <cstdint>
 #include <functional>
 #include <span>
 #include <string_view>
@@ -17,20 +14,6 @@ namespace zvo
 
 /// Receives the bytes of a file, piece by piece.
 using WriteBytes = std::function<void(std::span<const std::byte>)>;
-
-/// Calls use(code, color) for every voxel in ascending order of the Morton codes. color: sRGB red | green << 8 | blue
-/// << 16; kPlainColor in a tree without attributes.
-template <typename Use> void forEachColoredVoxel(const TreeData& tree, const Use& use)
-{
-    constexpr std::uint32_t kColorMask = 0xffffffU;
-    std::size_t voxel = 0;
-    forEachVoxel(tree,
-                 [&](std::uint64_t code)
-                 {
-                     use(code, tree.hasAttributes() ? tree.voxelAttribute(voxel).color & kColorMask : kPlainColor);
-                     ++voxel;
-                 });
-}
 
 /// Collects numbers, little-endian, and texts.
 class ByteCollector
