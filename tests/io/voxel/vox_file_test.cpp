@@ -202,7 +202,7 @@ TEST(VoxFile, WhatIsWrongHasItsMessage)
     };
     for (const auto& [file, words] : faults)
     {
-        expectParts(messageOf([&] { static_cast<void>(read(file)); }, ErrorCode::Input), {words});
+        expectParts(messageOf([&file = file] { static_cast<void>(read(file)); }, ErrorCode::Input), {words});
     }
     for (std::size_t size = 0; size < good.size(); ++size)
     {
