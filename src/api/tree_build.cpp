@@ -95,12 +95,13 @@ struct ZVO_LOCAL TreeJob::Impl
         return std::move(m_tree);
     }
 
-    Context::Impl& context;
     std::map<std::string, std::uint64_t> dropped = {};
 
 protected:
     void begin(StepJob& part) { m_part = &part; }
     void setTree(DeviceTree&& tree) { m_tree = std::make_unique<Tree::Impl>(context, std::move(tree)); }
+
+    Context::Impl& context;
 
 private:
     // Called when a part is done: begins the next one, or sets the tree.
