@@ -42,10 +42,11 @@ struct Draw
     uint material;
     uint mirrored;          // 1: the transform turns the winding around
     uint first_emission_uv; // in SceneView::uvs, or kAbsent: first_uv where emission has the same coordinates
+    uvec2 zero;             // to whole texels of four words
 };
 GPU_BUFFER(Draw, 4);
 
-const uint kDrawWords = 30u; // 32-bit words of a Draw
+const uint kDrawWords = 32u; // 32-bit words of a Draw
 
 struct Material
 {

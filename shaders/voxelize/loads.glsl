@@ -11,7 +11,7 @@
 
 #ifdef BOUND
 
-TEXELS_1(3, draws);
+TEXELS_4(3, draws);
 TEXELS_3(4, triangles);
 TEXELS_3(5, positions);
 TEXELS_3(6, normals);
@@ -25,23 +25,20 @@ TEXELS_1(12, texels);
 #define SceneTexels uint // stands for an address that this form does not need
 #define SCENE_TEXELS 0u
 
-// The draw that consists of the words WORD(0) to WORD(kDrawWords - 1).
-#define DRAW_VECTOR(WORD, I) uintBitsToFloat(uvec3(WORD(I), WORD(I + 1), WORD(I + 2)))
-#define DRAW_OF_WORDS(WORD)                                                                                            \
-    Draw(mat4x3(DRAW_VECTOR(WORD, 0), DRAW_VECTOR(WORD, 3), DRAW_VECTOR(WORD, 6), DRAW_VECTOR(WORD, 9)),               \
-         mat3(DRAW_VECTOR(WORD, 12), DRAW_VECTOR(WORD, 15), DRAW_VECTOR(WORD, 18)), WORD(21), WORD(22), WORD(23),      \
-         WORD(24), WORD(25), WORD(26), WORD(27), WORD(28), WORD(29))
-
-uint drawWord(uint number, uint word)
-{
-    return texelFetch(texels1_draws, int(number * kDrawWords + word)).x;
-}
-
 Draw loadDraw(uint number)
 {
-#define WORD(I) drawWord(number, I)
-    return DRAW_OF_WORDS(WORD);
-#undef WORD
+    int first = int(number * (kDrawWords / 4u));
+    vec4 a = uintBitsToFloat(texelFetch(texels4_draws, first));
+    vec4 b = uintBitsToFloat(texelFetch(texels4_draws, first + 1));
+    vec4 c = uintBitsToFloat(texelFetch(texels4_draws, first + 2));
+    vec4 d = uintBitsToFloat(texelFetch(texels4_draws, first + 3));
+    vec4 e = uintBitsToFloat(texelFetch(texels4_draws, first + 4));
+    uvec4 f = texelFetch(texels4_draws, first + 5);
+    uvec4 g = texelFetch(texels4_draws, first + 6);
+    uvec4 h = texelFetch(texels4_draws, first + 7);
+    return Draw(mat4x3(a.xyz, vec3(a.w, b.xy), vec3(b.zw, c.x), c.yzw),
+                mat3(d.xyz, vec3(d.w, e.xy), vec3(e.zw, uintBitsToFloat(f.x))), f.y, f.z, f.w, g.x, g.y, g.z, g.w, h.x,
+                h.y, h.zw);
 }
 
 uvec3 loadTriangle(uint i)

@@ -202,26 +202,6 @@ void sizeBands(uint group_count)
     }
 }
 
-#ifdef BOUND
-shared uint s_draw[kDrawWords];
-
-// The draw of all threads of the workgroup. Call in uniform control flow.
-Draw loadDrawOfGroup(uint number)
-{
-    if (gl_LocalInvocationIndex < kDrawWords)
-        s_draw[gl_LocalInvocationIndex] = drawWord(number, gl_LocalInvocationIndex);
-    barrier();
-#define WORD(I) s_draw[I]
-    return DRAW_OF_WORDS(WORD);
-#undef WORD
-}
-#else
-Draw loadDrawOfGroup(uint number)
-{
-    return loadDraw(number);
-}
-#endif
-
 Chunk loadChunk(uint number)
 {
     uint64_t_ConstPtr chunks = uint64_t_ConstPtr(uint64_t(params.chunks)); // one load, not two
@@ -240,7 +220,7 @@ void main()
     bool is_chunk = is_group && number < params.chunk_count;
     Chunk chunk = loadChunk(min(number, params.chunk_count - 1u));
     uint triangle = chunk.first_triangle + (kSingle ? 0u : gl_LocalInvocationIndex);
-    Draw draw = kSingle ? loadDraw(chunk.draw) : loadDrawOfGroup(chunk.draw);
+    Draw draw = loadDraw(chunk.draw);
     if (is_chunk && triangle < draw.triangle_count)
         takeTriangle(chunk.draw, draw, triangle);
     if (kMode == kModeCoverage && is_group)
