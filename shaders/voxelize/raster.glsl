@@ -15,11 +15,19 @@
 #ifndef ZVO_SHADERS_VOXELIZE_RASTER_GLSL
 #define ZVO_SHADERS_VOXELIZE_RASTER_GLSL
 
+#include "voxelize/axes.glsl"
 #include "voxelize/voxelize.h"
 
 #ifndef EDGE_INT
 #error "voxelize/raster.glsl needs EDGE_INT: int or int64_t, and EDGE_IVEC3"
 #endif
+
+#ifndef RASTER_CELL_LOG2
+#define RASTER_CELL_LOG2 kVoxelLatticeLog2
+#endif
+
+const int kCellLog2 = RASTER_CELL_LOG2;
+const int kCell = 1 << kCellLog2; // lattice units of a cell: a voxel's edge, or a brick's
 
 // A triangle set up for its grid.
 struct RasterTriangle
@@ -78,44 +86,13 @@ EDGE_IVEC3 edgeSupport(ivec3 a, ivec3 b)
     ivec3 size_b = abs(b);
     EDGE_IVEC3 size = kCoverage == kCoverageConservative ? EDGE_IVEC3(size_a) + EDGE_IVEC3(size_b)
                                                          : EDGE_IVEC3(max(size_a, size_b));
-    return size * EDGE_INT(kVoxelLattice / 2);
+    return size * EDGE_INT(kCell / 2);
 }
 
-// What an edge function changes by from voxel to voxel. edge: components of the edge vectors.
+// What an edge function changes by from cell to cell. edge: components of the edge vectors.
 EDGE_IVEC3 voxelStep(ivec3 edge)
 {
-    return EDGE_IVEC3(edge) * EDGE_INT(kVoxelLattice);
-}
-
-// Which of x, y, z is w. A triangle without area has no major axis: w is the axis along which its box is thinnest, so
-// that a column has few layers to try. low, high: touched voxels.
-uint majorAxis(i64vec3 n, ivec3 low, ivec3 high)
-{
-    i64vec3 size = n == i64vec3(0) ? i64vec3(low - high) : abs(n);
-    return size.x >= size.y && size.x >= size.z ? 0u : (size.y >= size.z ? 1u : 2u);
-}
-
-// -1 where u or v is mirrored, else 0. m: the normal in u, v, w.
-ivec2 mirrorOf(i64vec3 m)
-{
-    return ivec2((m.x ^ m.z) < 0 ? 0 : -1, (m.y ^ m.z) < 0 ? 0 : -1);
-}
-
-// In u, v, w what is given in x, y, z.
-ivec3 permuted(ivec3 a, uint axis)
-{
-    return axis == 0u ? a.yzx : (axis == 1u ? a.zxy : a);
-}
-
-i64vec3 permuted(i64vec3 a, uint axis)
-{
-    return axis == 0u ? a.yzx : (axis == 1u ? a.zxy : a);
-}
-
-// Voxels low to high along an axis that may be mirrored. mirror: -1 or 0.
-ivec2 mirroredRange(ivec2 range, int mirror)
-{
-    return mirror < 0 ? ~range.yx : range;
+    return EDGE_IVEC3(edge) * EDGE_INT(kCell);
 }
 
 // Coordinates of the corners along an axis that may be mirrored.
@@ -143,12 +120,9 @@ RasterTriangle setupTriangle(ivec3 v0, ivec3 v1, ivec3 v2, i64vec3 normal, uint 
     t.u = cornersOf(is_x ? y : (is_y ? z : x), t.mirror.x, t.exchanged);
     t.v = cornersOf(is_x ? z : (is_y ? x : y), t.mirror.y, t.exchanged);
     t.w = cornersOf(is_x ? x : (is_y ? y : z), 0, t.exchanged);
-    t.low = permuted(low, axis);
-    t.high = permuted(high, axis);
-    ivec2 range_u = mirroredRange(ivec2(t.low.x, t.high.x), t.mirror.x);
-    ivec2 range_v = mirroredRange(ivec2(t.low.y, t.high.y), t.mirror.y);
-    t.low.xy = ivec2(range_u.x, range_v.x);
-    t.high.xy = ivec2(range_u.y, range_v.y);
+    CellBox box = boxOf(axis, t.mirror, low, high);
+    t.low = box.low;
+    t.high = box.high;
     t.rise_u = abs(EDGE_INT(n.x));
     t.rise_v = abs(EDGE_INT(n.y));
     t.n_w = abs(EDGE_INT(n.z));
@@ -160,31 +134,31 @@ RasterTriangle setupTriangle(ivec3 v0, ivec3 v1, ivec3 v2, i64vec3 normal, uint 
 }
 
 // floor(numerator / n_w) of the division that decides a column's layer, numerator being
-//   (w_0 n_w + rise_u (c_u - u_0) + rise_v (c_v - v_0) + addend) / 256
-// with (c_u, c_v) the centre of column. Products with the low byte of a factor are kept apart so that dividing by 256
+//   (w_0 n_w + rise_u (c_u - u_0) + rise_v (c_v - v_0) + addend) / kCell
+// with (c_u, c_v) the centre of column. Products with the low bits of a factor are kept apart so that dividing by kCell
 // is exact; the quotient is estimated in floating point and corrected by the exact (wrapping) remainder.
 int columnLayer(RasterTriangle t, ivec2 column, EDGE_INT addend_high, int addend_low, out EDGE_INT rest)
 {
-    int to_u = column.x * kVoxelLattice + kVoxelLattice / 2 - t.u.x;
-    int to_v = column.y * kVoxelLattice + kVoxelLattice / 2 - t.v.x;
+    int to_u = column.x * kCell + kCell / 2 - t.u.x;
+    int to_v = column.y * kCell + kCell / 2 - t.v.x;
     int to_w = t.w.x;
-    const int low_byte = kVoxelLattice - 1;
-    int low_u = to_u & low_byte;
-    int low_v = to_v & low_byte;
-    int low_w = to_w & low_byte;
-    EDGE_INT high = EDGE_INT(to_w >> kVoxelLatticeLog2) * t.n_w + EDGE_INT(to_u >> kVoxelLatticeLog2) * t.rise_u +
-                    EDGE_INT(to_v >> kVoxelLatticeLog2) * t.rise_v;
-    EDGE_INT middle = EDGE_INT(low_w) * (t.n_w >> kVoxelLatticeLog2) +
-                      EDGE_INT(low_u) * (t.rise_u >> kVoxelLatticeLog2) +
-                      EDGE_INT(low_v) * (t.rise_v >> kVoxelLatticeLog2);
-    int low = low_w * (int(t.n_w) & low_byte) + low_u * (int(t.rise_u) & low_byte) +
-              low_v * (int(t.rise_v) & low_byte);
-    EDGE_INT numerator = high + middle + addend_high + EDGE_INT((low + addend_low) >> kVoxelLatticeLog2);
+    const int low_bits = kCell - 1;
+    int low_u = to_u & low_bits;
+    int low_v = to_v & low_bits;
+    int low_w = to_w & low_bits;
+    EDGE_INT high = EDGE_INT(to_w >> kCellLog2) * t.n_w + EDGE_INT(to_u >> kCellLog2) * t.rise_u +
+                    EDGE_INT(to_v >> kCellLog2) * t.rise_v;
+    EDGE_INT middle = EDGE_INT(low_w) * (t.n_w >> kCellLog2) +
+                      EDGE_INT(low_u) * (t.rise_u >> kCellLog2) +
+                      EDGE_INT(low_v) * (t.rise_v >> kCellLog2);
+    int low = low_w * (int(t.n_w) & low_bits) + low_u * (int(t.rise_u) & low_bits) +
+              low_v * (int(t.rise_v) & low_bits);
+    EDGE_INT numerator = high + middle + addend_high + EDGE_INT((low + addend_low) >> kCellLog2);
 
     float inverse = 1.0 / float(t.n_w);
     float height = float(to_w) + (float(t.rise_u) * inverse) * float(to_u) + (float(t.rise_v) * inverse) * float(to_v) +
-                   float(addend_high) * inverse * float(kVoxelLattice);
-    int layer = int(floor(height / float(kVoxelLattice)));
+                   float(addend_high) * inverse * float(kCell);
+    int layer = int(floor(height / float(kCell)));
     rest = numerator - EDGE_INT(layer) * t.n_w;
     bool below = rest < 0; // the estimate is at most four layers off
     layer -= below ? 4 : 0;
@@ -222,7 +196,7 @@ RasterCell startColumn(RasterTriangle t, ivec2 column)
         // unit, because a plane that touches a layer's upper face covers that layer too.
         EDGE_INT spread = kThin ? EDGE_INT(0) : t.rise_u + t.rise_v;
         EDGE_INT half_spread = spread >> 1;
-        int odd = (int(spread) & 1) * (kVoxelLattice / 2);
+        int odd = (int(spread) & 1) * (kCell / 2);
         int layer = columnLayer(t, column, -half_spread, kThin ? 0 : -odd - 1, cell.rest);
         cell.w = kThin ? min(layer, t.layer_top) : layer;
         cell.w_high = cell.w;
@@ -230,9 +204,9 @@ RasterCell startColumn(RasterTriangle t, ivec2 column)
         if (!kThin)
             cell.w_high = columnLayer(t, column, half_spread, odd, cell.rest_high);
     }
-    ivec3 to_u = column.x * kVoxelLattice + kVoxelLattice / 2 - t.u;
-    ivec3 to_v = column.y * kVoxelLattice + kVoxelLattice / 2 - t.v;
-    ivec3 to_w = cell.w * kVoxelLattice + kVoxelLattice / 2 - t.w;
+    ivec3 to_u = column.x * kCell + kCell / 2 - t.u;
+    ivec3 to_v = column.y * kCell + kCell / 2 - t.v;
+    ivec3 to_w = cell.w * kCell + kCell / 2 - t.w;
     cell.uv = product(t.edge_u, to_v) - product(t.edge_v, to_u) + edgeSupport(t.edge_u, t.edge_v);
     cell.vw = product(t.edge_w, to_v) - product(t.edge_v, to_w) + edgeSupport(t.edge_v, t.edge_w);
     cell.wu = product(t.edge_u, to_w) - product(t.edge_w, to_u) + edgeSupport(t.edge_w, t.edge_u);

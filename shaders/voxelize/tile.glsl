@@ -2,18 +2,13 @@
 // Thin coverage by tiles: the 4x4 columns above one leaf. A plane crosses at most kTileLeaves leaves in a tile, because
 // its height changes by at most one layer from column to column. So the brick table is searched at most that often for
 // up to 16 voxels, whose bits are set together. The rest is arithmetic in a thread's own registers.
-//
-// Edge functions move by multiples of 256, the edge vectors times 256, so that floor(edge function / 256) moves by the
-// edge vectors and has the same sign. In a tile an edge function moves by at most 3 columns, 3 rows and 6 layers, and
-// vw and wu by 9 edge components: for edges of up to kTileExtent = 2^26 that is less than 2^30. So a quotient that
-// begins outside of [-2^30, 2^30) keeps its sign in the tile, also when it begins at the end of that interval instead,
-// and no quotient leaves 32 bits. Triangles of larger edges have tiles of one column, in which nothing moves.
 #ifndef ZVO_SHADERS_VOXELIZE_TILE_GLSL
 #define ZVO_SHADERS_VOXELIZE_TILE_GLSL
 
 #include "lib/bricks.glsl"
 #include "voxelize/fragment.glsl"
 #include "voxelize/raster.glsl"
+#include "voxelize/tile_walk.glsl"
 #include "voxelize/voxelize.h"
 
 const uint kTileLeaves = 3u; // 7 layers
@@ -25,30 +20,11 @@ struct Tile
     uvec2 masks[kTileLeaves]; // covered voxels of the leaves, from the one that holds w_low up
 };
 
-// The members of a RasterCell that thin coverage needs, edge functions divided by 256.
-struct TileCell
-{
-    ivec3 uv;
-    ivec3 vw;
-    ivec3 wu;
-    int w;
-    EDGE_INT rest; // of the layer's division by n_w
-};
-
 // Columns of a tile along each axis.
 int tileExtent(RasterTriangle t)
 {
     ivec3 edges = max(abs(t.edge_u), max(abs(t.edge_v), abs(t.edge_w)));
     return max(edges.x, max(edges.y, edges.z)) <= kTileExtent ? 4 : 1;
-}
-
-// floor(edge / 256), brought into [-2^30, 2^30).
-ivec3 tileEdge(i64vec3 edge)
-{
-    ivec3 beyond = ivec3(edge >> (kVoxelLatticeLog2 + 30)); // 0 or -1 inside
-    ivec3 quotient = ivec3(edge >> kVoxelLatticeLog2);
-    quotient = mix(quotient, ivec3((1 << 30) - 1), greaterThan(beyond, ivec3(0)));
-    return mix(quotient, ivec3(-(1 << 30)), lessThan(beyond, ivec3(-1)));
 }
 
 // Bits of the number of a voxel inside its leaf that belong to coordinate c of axis.
@@ -73,12 +49,11 @@ void addToMasks(bool present, uint cell, uint layer, inout uvec2 masks[kTileLeav
 // extent: of the tile.
 Tile coverTile(RasterTriangle t, ivec2 column, int extent)
 {
-    RasterCell first = startColumn(t, column);
-    TileCell row = TileCell(tileEdge(first.uv), tileEdge(first.vw), tileEdge(first.wu), first.w, first.rest);
+    TileCell row = startTile(t, column);
 
     Tile tile;
     tile.column = column;
-    tile.w_low = first.w;
+    tile.w_low = row.w;
     tile.masks = uvec2[](uvec2(0u), uvec2(0u), uvec2(0u));
     ivec2 last = min(t.high.xy, column + extent - 1);
     uint axis_u = t.axis == 2u ? 0u : t.axis + 1u;
@@ -92,23 +67,14 @@ Tile coverTile(RasterTriangle t, ivec2 column, int extent)
         for (int i = 0; i < 4; ++i)
         {
             int u = column.x + i;
-            int outside = outside_v | (u - t.low.x) | (last.x - u) | (cell.w - t.low.z) | (t.high.z - cell.w);
-            ivec3 signs = cell.uv | cell.vw | cell.wu;
-            bool covered = (signs.x | signs.y | signs.z | outside) >= 0;
+            int outside = outside_v | (u - t.low.x) | (last.x - u);
+            bool covered = outside >= 0 && isCovered(t, cell);
             uint number = cellBits(uint(u ^ t.mirror.x), axis_u) | cellBits(uint(v ^ t.mirror.y), axis_v) |
                           cellBits(uint(cell.w), t.axis);
             addToMasks(covered, number, uint(cell.w - leaf_low), tile.masks);
-            bool up = stepLayer(t, t.rise_u, cell.rest);
-            cell.w += up ? 1 : 0;
-            cell.uv -= t.edge_v;
-            cell.vw -= up ? t.edge_v : ivec3(0);
-            cell.wu += (up ? t.edge_u : ivec3(0)) - t.edge_w;
+            nextColumn(t, cell);
         }
-        bool up = stepLayer(t, t.rise_v, row.rest);
-        row.w += up ? 1 : 0;
-        row.uv += t.edge_u;
-        row.vw += t.edge_w - (up ? t.edge_v : ivec3(0));
-        row.wu += up ? t.edge_u : ivec3(0);
+        nextRow(t, row);
     }
     return tile;
 }

@@ -14,74 +14,15 @@
 #include "lib/arithmetic.glsl"
 #include "lib/arrivals.glsl"
 #include "lib/dispatch.glsl"
+#include "voxelize/chunk.glsl"
+#include "voxelize/dropped.glsl"
 #include "voxelize/fragment.glsl"
 #include "voxelize/loads.glsl"
 #include "voxelize/raster.glsl"
 #include "voxelize/shading.glsl"
-#include "voxelize/vertex.glsl"
-#include "voxelize/window.glsl"
+#include "voxelize/snap.glsl"
 
 layout(local_size_x = kChunkTriangles) in;
-
-// Reasons to leave a triangle out.
-const uint kKept = 0u;
-const uint kNonfinite = 1u;
-const uint kOutOfRange = 2u;
-const uint kOutside = 3u;
-const uint kZeroArea = 4u;
-
-struct SnappedTriangle
-{
-    ivec3 v0;
-    ivec3 v1;
-    ivec3 v2;
-    i64vec3 normal;
-    ivec3 low; // touched voxels, inside the window
-    ivec3 high;
-    uint fate;
-};
-
-SnappedTriangle snapTriangle(Draw draw, uvec3 vertices)
-{
-    vec3 p0 = worldPosition(draw, vertices.x);
-    vec3 p1 = worldPosition(draw, vertices.y);
-    vec3 p2 = worldPosition(draw, vertices.z);
-    vec3 q0 = latticePosition(p0);
-    vec3 q1 = latticePosition(p1);
-    vec3 q2 = latticePosition(p2);
-    bool finite = isFinite(p0) && isFinite(p1) && isFinite(p2);
-    bool in_range = finite && onLattice(q0) && onLattice(q1) && onLattice(q2);
-
-    SnappedTriangle t;
-    t.v0 = in_range ? ivec3(q0) : ivec3(0);
-    t.v1 = in_range ? ivec3(q1) : ivec3(0);
-    t.v2 = in_range ? ivec3(q2) : ivec3(0);
-    i64vec3 a = i64vec3(t.v1 - t.v0);
-    i64vec3 b = i64vec3(t.v2 - t.v0);
-    t.normal = a.yzx * b.zxy - a.zxy * b.yzx;
-    // A closed range [min, max] touches the closed voxels from ceil(min / 256) - 1 to floor(max / 256).
-    ivec3 low = ((min(t.v0, min(t.v1, t.v2)) + (kVoxelLattice - 1)) >> kVoxelLatticeLog2) - 1;
-    ivec3 high = max(t.v0, max(t.v1, t.v2)) >> kVoxelLatticeLog2;
-    bool outside = any(lessThan(high, ivec3(0))) || any(greaterThanEqual(low, ivec3(gridResolution())));
-    t.low = low;
-    t.high = high;
-    clipToWindow(t.low, t.high);
-    bool flat_out = kThin && t.normal == i64vec3(0);
-    t.fate = !finite ? kNonfinite : (!in_range ? kOutOfRange : (outside ? kOutside : (flat_out ? kZeroArea : kKept)));
-    return t;
-}
-
-void countDropped(uint fate)
-{
-    if (fate == kNonfinite)
-        atomicAdd(params.counters.data[0].nonfinite, 1u);
-    if (fate == kOutOfRange)
-        atomicAdd(params.counters.data[0].out_of_range, 1u);
-    if (fate == kOutside)
-        atomicAdd(params.counters.data[0].outside, 1u);
-    if (fate == kZeroArea)
-        atomicAdd(params.counters.data[0].zero_area, 1u);
-}
 
 void listBigTriangle(SnappedTriangle snapped, RasterTriangle t, uint draw, uint triangle)
 {
@@ -171,7 +112,7 @@ void rasterize(RasterTriangle t, Surface surface, uvec2 extent, bool selected)
 void takeTriangle(uint draw_number, Draw draw, uint triangle)
 {
     uvec3 vertices = loadTriangle(draw.first_triangle + triangle);
-    SnappedTriangle snapped = snapTriangle(draw, vertices);
+    SnappedTriangle snapped = snapTriangle(draw, vertices, kThin);
     uint axis = majorAxis(snapped.normal, snapped.low, snapped.high);
     RasterTriangle t = setupTriangle(snapped.v0, snapped.v1, snapped.v2, snapped.normal, axis, snapped.low,
                                      snapped.high, gridResolution());
@@ -202,29 +143,13 @@ void sizeBands(uint group_count)
     }
 }
 
-Chunk loadChunk(uint number)
-{
-    uint64_t_ConstPtr chunks = uint64_t_ConstPtr(uint64_t(params.chunks)); // one load, not two
-    uvec2 words = unpackUint2x32(chunks.data[number]);
-    return Chunk(words.x, words.y);
-}
-
-// No thread returns early: lavapipe loads for one thread what is uniform, but only where all threads are active.
 void main()
 {
-    uint group_count = kSingle ? (params.chunk_count + kChunkTriangles - 1u) / kChunkTriangles : params.chunk_count;
-    bool is_group = workgroupIndex() < group_count;
-    uint number = interleave(min(workgroupIndex(), group_count - 1u), group_count);
-    if (kSingle)
-        number = number * kChunkTriangles + gl_LocalInvocationIndex;
-    bool is_chunk = is_group && number < params.chunk_count;
-    Chunk chunk = loadChunk(min(number, params.chunk_count - 1u));
-    uint triangle = chunk.first_triangle + (kSingle ? 0u : gl_LocalInvocationIndex);
-    Draw draw = loadDraw(chunk.draw);
-    if (is_chunk && triangle < draw.triangle_count)
-        takeTriangle(chunk.draw, draw, triangle);
-    if (kMode == kModeCoverage && is_group)
-        sizeBands(group_count);
+    ChunkTriangle taken = loadChunkTriangle();
+    if (taken.exists)
+        takeTriangle(taken.draw_number, taken.draw, taken.triangle);
+    if (kMode == kModeCoverage && workgroupIndex() < chunkGroups())
+        sizeBands(chunkGroups());
 }
 
 #endif

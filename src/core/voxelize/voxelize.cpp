@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "core/voxelize/voxelize.h"
 
+#include "core/base/clamped_count.h"
 #include "core/base/divide_up.h"
 #include "core/base/lanes.h"
 #include "core/base/tuning.h"
@@ -39,11 +40,6 @@ constexpr std::uint64_t kBigTrianglesGuessMax = 1 << 20;
 constexpr std::uint64_t kRowBlocksMin = 1 << 16;
 constexpr std::uint64_t kRowBlocksGuessMax = 1 << 23;
 
-std::uint64_t clampedCount(double value, std::uint64_t low, std::uint64_t high)
-{
-    return static_cast<std::uint64_t>(std::clamp(value, static_cast<double>(low), static_cast<double>(high)));
-}
-
 // The kernels of all modes share their parameters: those that only read a buffer get a writable address, too.
 template <typename T> gpu::Ptr<T> access(vk::AnyPass& pass, vk::BufferOf<T>& buffer, bool writes)
 {
@@ -69,7 +65,7 @@ gpu::RasterParams rasterParams(vk::AnyPass& pass, const RasterWalk& walk, Materi
     params.row_blocks = access(pass, rows.row_blocks, covers);
     params.counters = access(pass, rows.counters, covers);
     params.origin = walk.job.tile.grid.origin;
-    params.lattice_scale = static_cast<float>(gpu::kVoxelLattice / static_cast<double>(walk.job.tile.grid.voxel_size));
+    params.lattice_scale = latticeScale(walk.job.tile.grid);
     params.window = gpu::packWindow(walk.job.tile.grid.depth, walk.job.tile.depth, walk.job.tile.index);
     params.brick_mask = static_cast<std::uint32_t>(walk.job.buffers.brickCapacity() - 1);
     params.big_capacity = static_cast<std::uint32_t>(rows.big_triangles.count());

@@ -24,6 +24,12 @@ inline bool hasWideKeys(const Grid& grid)
     return grid.nodeLevels() > gpu::kNarrowLevelsMax;
 }
 
+/// Lattice units a world unit.
+inline float latticeScale(const Grid& grid)
+{
+    return static_cast<float>(gpu::kVoxelLattice / static_cast<double>(grid.voxel_size));
+}
+
 /// How the work of big triangles is divided among threads. The voxels and their attributes do not depend on it. Devices
 /// that do not skip branches want few threads, which share what they compute of a triangle; GPUs want short ones.
 struct RowShape
