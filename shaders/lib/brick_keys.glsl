@@ -17,6 +17,17 @@ uvec2 brickKey(uvec3 cell, uint levels)
     return mortonEncodeWide(cell) | leading | kBrickKeyTag;
 }
 
+// The cell of a key of that level.
+uvec3 brickCell(uvec2 key, uint levels)
+{
+    uint marker = 6u * levels;
+    if (!kWideKeys)
+        return mortonDecode(key.x & ~(1u << marker));
+    uvec2 leading = marker < kBrickKeyBits ? uvec2(1u << marker, 0u) : uvec2(0u, 1u << (marker - kBrickKeyBits));
+    uvec2 code = key & ~(leading | kBrickKeyTag);
+    return mortonDecode(code.x) | (mortonDecode(code.y) << 10);
+}
+
 uvec2 parentKey(uvec2 key)
 {
     if (!kWideKeys)

@@ -22,7 +22,7 @@ uint numberLevel(uint level, uint first_node)
         placeNode(params.items.data[range.first + gl_LocalInvocationIndex], level == 0u, children);
     memoryBarrierBuffer();
     barrier();
-    bool are_leaves = level + 1u == params.level_count;
+    bool are_leaves = level == params.leaf_level;
     uint node = first_node + gl_LocalInvocationIndex;
     uvec2 masks = uvec2(0u);
     if (is_node)

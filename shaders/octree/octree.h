@@ -20,7 +20,8 @@ const uint kRootLevels = 2u;    // levels that it takes
 const uint kAssignGroup = 128u; // threads of a workgroup of octree/assign
 const uint kAssignItems = 8u;   // nodes that a thread of it takes: kScanBlock in all
 
-/// The work items of one level of nodes. Element 0 is for the leaves, the last one for the root.
+/// The work items of one level of nodes. Element 0 is for the leaves or, where the octree is made by
+/// bricks, for the bricks; the last one for the root.
 struct LevelRange
 {
     uint first;
@@ -64,6 +65,7 @@ struct NumberParams // push constants of octree/number: one workgroup, a thread 
     GPU_CONST_PTR(LevelRange) ranges; // [level_count]
     GPU_PTR(Node) nodes;
     uint level_count;
+    uint leaf_level; // whose children are voxels
 };
 #define OCTREE_NUMBER_CONSTANTS(CONSTANT)                                                                              \
     CONSTANT(0, bool, wide_keys, kWideKeys, false) /* the octree has more than kNarrowLevelsMax levels */

@@ -8,8 +8,8 @@
 // Axes are permuted so that w is the triangle's major axis; columns stand along w over the (u, v) plane. Then u and v
 // are mirrored, and corners exchanged, so that every triangle with area has n_u <= 0, n_v <= 0 and n_w > 0: its plane
 // rises along u and v by at most a layer for each column, and its edges have the same sign in each projection. Which
-// sign a projection to a segment gets does not matter: its edges run both ways. Mirrored, column c is column ~c, and the
-// columns above a leaf stay together.
+// sign a projection to a segment gets does not matter: its edges run both ways. Mirrored, column c is column ~c, and
+// the columns above a leaf stay together.
 //
 // Component i of an EDGE_IVEC3 belongs to the edge from corner i to corner i + 1.
 #ifndef ZVO_SHADERS_VOXELIZE_RASTER_GLSL
@@ -192,8 +192,8 @@ RasterCell startColumn(RasterTriangle t, ivec2 column)
     }
     else
     {
-        // Conservative: the plane's range over the closed column is +-128 (|n_u| + |n_v|); the lower end excludes one
-        // unit, because a plane that touches a layer's upper face covers that layer too.
+        // Conservative: the plane's range over the closed column is +-kCell / 2 (|n_u| + |n_v|); the lower end excludes
+        // one unit, because a plane that touches a layer's upper face covers that layer too.
         EDGE_INT spread = kThin ? EDGE_INT(0) : t.rise_u + t.rise_v;
         EDGE_INT half_spread = spread >> 1;
         int odd = (int(spread) & 1) * (kCell / 2);

@@ -23,6 +23,7 @@
 #include "trace/node_paths.h"
 #include "trace/trace.h"
 #include "update/update.h"
+#include "voxelize/bricks.h"
 #include "voxelize/voxelize.h"
 
 #include <gtest/gtest.h>

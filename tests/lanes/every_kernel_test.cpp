@@ -221,8 +221,8 @@ void addInAllForms(const Scene& scene, const Grid& grid, Coverage coverage)
     }
 }
 
-// Builds an octree of a scene that emits nothing, with sums of mixed voxels alone and of all voxels.
-void addMixed(const Grid& grid, Coverage coverage)
+// Builds an octree of a scene that emits nothing, with sums of mixed voxels alone and of all voxels, and by bricks.
+void buildDark(const Grid& grid, Coverage coverage)
 {
     const GpuScene dark = uploadScene(device(), test::sphereScene(glm::vec3(8.0F), 6.0F, 6), true);
     SumForm form = SumForm::on(device().device());
@@ -237,6 +237,11 @@ void addMixed(const Grid& grid, Coverage coverage)
         cells.push_back(test::cellsOf(device(), built.octree));
     }
     EXPECT_EQ(test::difference(cells[0], cells[1]), "");
+    BuildOptions options = {coverage};
+    options.by_bricks = true;
+    const BuildResult built = buildOctree(device(), dark, grid, options);
+    noteKernels(built.passes);
+    EXPECT_EQ(test::difference(cells[0], test::cellsOf(device(), built.octree)), "");
 }
 
 TEST(EveryKernel, RunsOnASmallScene)
@@ -275,7 +280,7 @@ TEST(EveryKernel, RunsOnASmallScene)
         BuildResult built = buildOctree(device(), uploadScene(device(), built_scene, true), grid, {c.coverage});
         EXPECT_EQ(voxelCodes(device(), built.octree), oracle::voxelize(built_scene, grid, c.coverage).codes);
         noteKernels(built.passes);
-        addMixed(grid, c.coverage);
+        buildDark(grid, c.coverage);
         if (c.pictures)
         {
             addInAllForms(plain, grid, c.coverage);

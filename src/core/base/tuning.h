@@ -21,6 +21,9 @@ enum class Tunable : std::uint8_t
     RowColumns,
     BandLanes,
     MixedSums,
+    VoxelForm,
+    BrickThreads,
+    BrickVoxels,
     PathForm,
     SubgroupSize,
     Loads

@@ -13,20 +13,22 @@ namespace
 // Child counts that octree/assign sums up by itself: more are scanned before.
 constexpr std::uint64_t kBlocksUnscanned = 512;
 
-// Numbers the root and its children.
-void numberTop(vk::FrameGraph& graph, VoxelizeBuffers& voxelize, OctreeBuildBuffers& work, DeviceTree& octree)
+// Numbers the root and its children, of which level_count levels are numbered at all.
+void numberTop(vk::FrameGraph& graph, vk::BufferOf<gpu::BrickEntry>& table, OctreeBuildBuffers& work,
+               DeviceTree& octree, std::size_t level_count)
 {
     vk::Pass pass = graph.addPass(gpu::octree::Number{.wide_keys = hasWideKeys(octree.grid)});
-    pass.dispatch(gpu::kRootGroup, {.bricks = pass.readWrite(voxelize.bricks),
+    pass.dispatch(gpu::kRootGroup, {.bricks = pass.readWrite(table),
                                     .items = pass.read(work.items),
                                     .ranges = pass.read(work.ranges),
                                     .nodes = pass.readWrite(octree.nodes),
-                                    .level_count = static_cast<std::uint32_t>(octree.levels.size())});
+                                    .level_count = static_cast<std::uint32_t>(level_count),
+                                    .leaf_level = static_cast<std::uint32_t>(octree.levels.size() - 1)});
 }
 
 // Places the nodes of a level, whose first work item is given, and sets their child bases by a prefix sum.
-void numberLevel(vk::FrameGraph& graph, VoxelizeBuffers& voxelize, OctreeBuildBuffers& work, DeviceTree& octree,
-                 std::size_t level, std::uint32_t first_item, std::uint64_t first_block)
+void numberLevel(vk::FrameGraph& graph, vk::BufferOf<gpu::BrickEntry>& table, OctreeBuildBuffers& work,
+                 DeviceTree& octree, std::size_t level, std::uint32_t first_item, std::uint64_t first_block)
 {
     const auto [first_node, node_count] = octree.levels[level];
     const bool are_leaves = level + 1 == octree.levels.size();
@@ -34,7 +36,7 @@ void numberLevel(vk::FrameGraph& graph, VoxelizeBuffers& voxelize, OctreeBuildBu
     const std::uint64_t skipped = first_block * sizeof(gpu::uint);
     {
         vk::Pass pass = graph.addPass(gpu::octree::Place{.wide_keys = hasWideKeys(octree.grid)});
-        pass.dispatch(node_count, {.bricks = pass.readWrite(voxelize.bricks),
+        pass.dispatch(node_count, {.bricks = pass.readWrite(table),
                                    .items = pass.read(work.items),
                                    .nodes = pass.readWrite(octree.nodes),
                                    .partials = {pass.readWrite(work.partials).address + skipped},
@@ -53,13 +55,33 @@ void numberLevel(vk::FrameGraph& graph, VoxelizeBuffers& voxelize, OctreeBuildBu
     vk::Pass pass = graph.addPass(gpu::octree::Assign{});
     pass.dispatch(divideUp(node_count, gpu::kAssignItems),
                   {.nodes = pass.readWrite(octree.nodes),
-                   .bricks = pass.readWrite(voxelize.bricks),
+                   .bricks = pass.readWrite(table),
                    .partials = {pass.read(work.partials).address + skipped},
                    .is_scanned = block_count > kBlocksUnscanned ? 1U : 0U,
                    .first_node = first_node,
                    .node_count = node_count,
                    .first_child = are_leaves ? 0 : first_node + node_count,
                    .tell_bricks = are_leaves && !hasWideKeys(octree.grid) ? 1U : 0U});
+}
+
+// Adds the ancestors of the listed nodes to list and table. level_count: from the listed level to the root.
+void listParents(vk::FrameGraph& graph, std::uint32_t level_count, bool wide_keys, vk::BufferOf<gpu::BrickEntry>& table,
+                 vk::BufferOf<gpu::BrickCounters>& counters, OctreeBuildBuffers& work, std::uint64_t brick_capacity)
+{
+    for (std::uint32_t height = 0; height + 1 < level_count; ++height) // the root has no parent
+    {
+        vk::Pass pass = graph.addPass(gpu::octree::Parents{.wide_keys = wide_keys});
+        pass.dispatchIndirect(work.args, height,
+                              {.bricks = pass.readWrite(table),
+                               .items = pass.readWrite(work.items),
+                               .counters = pass.readWrite(counters),
+                               .ranges = pass.readWrite(work.ranges),
+                               .args = pass.readWrite(work.args),
+                               .brick_mask = static_cast<std::uint32_t>(brick_capacity - 1),
+                               .height = height,
+                               .max_groups_x = graph.device().limits().maxComputeWorkGroupCount[0]},
+                              divideUp(work.items.count(), gpu::kNodesGroup));
+    }
 }
 
 } // namespace
@@ -88,23 +110,34 @@ void listNodes(vk::FrameGraph& graph, const Grid& grid, VoxelizeBuffers& voxeliz
                        .brick_capacity = static_cast<std::uint32_t>(voxelize.brickCapacity()),
                        .max_groups_x = max_groups_x});
     }
-    for (std::uint32_t height = 0; height + 1 < grid.nodeLevels(); ++height) // the root has no parent
-    {
-        vk::Pass pass = graph.addPass(gpu::octree::Parents{.wide_keys = hasWideKeys(grid)});
-        pass.dispatchIndirect(work.args, height,
-                              {.bricks = pass.readWrite(voxelize.bricks),
-                               .items = pass.readWrite(work.items),
-                               .counters = pass.readWrite(voxelize.counters),
-                               .ranges = pass.readWrite(work.ranges),
-                               .args = pass.readWrite(work.args),
-                               .brick_mask = static_cast<std::uint32_t>(voxelize.brickCapacity() - 1),
-                               .height = height,
-                               .max_groups_x = max_groups_x},
-                              divideUp(work.items.count(), gpu::kNodesGroup));
-    }
+    listParents(graph, grid.nodeLevels(), hasWideKeys(grid), voxelize.bricks, voxelize.counters, work,
+                voxelize.brickCapacity());
 }
 
-void numberNodes(vk::FrameGraph& graph, VoxelizeBuffers& voxelize, OctreeBuildBuffers& work, DeviceTree& octree)
+void listBricks(vk::FrameGraph& graph, const Grid& grid, BrickBuffers& bricks, OctreeBuildBuffers& work)
+{
+    graph.fill(work.ranges, 0);
+    graph.fill(work.args, 0);
+    {
+        vk::Pass pass = graph.addPass(gpu::voxelize::CollectBricks{});
+        pass.dispatchIndirect(bricks.counters, &gpu::BinCounters::collect,
+                              {.bricks = pass.read(bricks.table),
+                               .ranges = pass.readWrite(bricks.ranges),
+                               .work = pass.write(work.items),
+                               .work_bricks = pass.write(bricks.work_bricks),
+                               .counters = pass.readWrite(bricks.counters),
+                               .nodes = pass.readWrite(bricks.nodes),
+                               .levels = pass.readWrite(work.ranges),
+                               .args = pass.readWrite(work.args),
+                               .max_groups_x = graph.device().limits().maxComputeWorkGroupCount[0]},
+                              divideUp(bricks.ranges.count(), gpu::kBricksGroup));
+    }
+    listParents(graph, grid.nodeLevels() - 1, hasWideKeys(grid), bricks.table, bricks.nodes, work,
+                bricks.table.count());
+}
+
+void numberNodes(vk::FrameGraph& graph, vk::BufferOf<gpu::BrickEntry>& table, OctreeBuildBuffers& work,
+                 DeviceTree& octree, std::size_t level_count)
 {
     // Passes that put numbers where masks were cannot come twice: what can fail comes before the first of them.
     vk::KernelCache& kernels = graph.device().kernels();
@@ -113,16 +146,20 @@ void numberNodes(vk::FrameGraph& graph, VoxelizeBuffers& voxelize, OctreeBuildBu
     kernels.get(gpu::octree::Scan{});
     kernels.get(gpu::octree::Assign{});
     graph.fill(work.partials, 0);
-    std::uint32_t item_end = octree.node_count; // the root is the last item
+    std::uint32_t item_end = 0; // the root is the last item
+    for (std::size_t level = 0; level < level_count; ++level)
+    {
+        item_end += octree.levels[level].node_count;
+    }
     std::uint64_t first_block = 0;
-    numberTop(graph, voxelize, work, octree);
-    for (std::size_t level = 0; level < octree.levels.size(); ++level)
+    numberTop(graph, table, work, octree, level_count);
+    for (std::size_t level = 0; level < level_count; ++level)
     {
         const std::uint32_t node_count = octree.levels[level].node_count;
         item_end -= node_count;
         if (level >= gpu::kRootLevels)
         {
-            numberLevel(graph, voxelize, work, octree, level, item_end, first_block);
+            numberLevel(graph, table, work, octree, level, item_end, first_block);
             first_block += divideUp(node_count, gpu::kScanBlock);
         }
     }

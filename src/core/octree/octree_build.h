@@ -3,10 +3,12 @@
 
 #include "core/tree/device_tree.h"
 #include "core/upload/gpu_scene.h"
+#include "core/voxelize/bricks.h"
 #include "core/voxelize/voxelize.h"
 #include "octree/octree.h"
 #include "vk/frame_graph.h"
 
+#include <cstddef>
 #include <cstdint>
 
 namespace zvo
@@ -30,11 +32,15 @@ struct OctreeBuildBuffers
 /// the table.
 void listNodes(vk::FrameGraph& graph, const Grid& grid, VoxelizeBuffers& voxelize, OctreeBuildBuffers& work);
 
+/// Records the passes that do the same for bricks, which have taken the place of leaves.
+void listBricks(vk::FrameGraph& graph, const Grid& grid, BrickBuffers& bricks, OctreeBuildBuffers& work);
+
 /// Records the passes that number the nodes breadth first, in Morton order within a level, and write octree.nodes from
 /// the root down. octree.levels, node_count and nodes must be set up. The entries of leaves in the brick table receive
 /// the number of their first voxel. The numbers come from prefix sums, so they do not depend on the order of threads.
-/// Cost: nodes.
-void numberNodes(vk::FrameGraph& graph, VoxelizeBuffers& voxelize, OctreeBuildBuffers& work, DeviceTree& octree);
+/// level_count: levels from the root on that are numbered, all of them or all but the leaves. Cost: nodes.
+void numberNodes(vk::FrameGraph& graph, vk::BufferOf<gpu::BrickEntry>& table, OctreeBuildBuffers& work,
+                 DeviceTree& octree, std::size_t level_count);
 
 /// Records the passes that give each inner node the mean attribute of its children, from the leaves up: a pass for each
 /// level, and one for the root's children and the root. Cost: nodes.

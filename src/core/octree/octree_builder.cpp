@@ -2,6 +2,7 @@
 #include "core/octree/octree_builder.h"
 
 #include "core/base/divide_up.h"
+#include "core/base/tuning.h"
 #include "core/tree/tree_limits.h"
 #include "zvo/error.h"
 
@@ -17,7 +18,7 @@ namespace zvo
 namespace
 {
 
-// Counters, raster counters of each class, level ranges.
+// Counters, those of rasterization or of bricks, level ranges.
 constexpr std::uint64_t kReadbackBytes = 1024;
 
 constexpr std::uint32_t kRetriesMax = 32; // a table of one brick grows to the largest in half of them
@@ -112,6 +113,33 @@ bool hasLargeTriangles(const GpuScene& scene, const Grid& grid)
     return scene.surface_area >= kVoxelsOfTriangle * voxel * voxel * static_cast<double>(scene.triangle_count);
 }
 
+// Whether voxelization by bricks cannot take the scene: it has too many items, or a triangle is too large.
+bool areBeyondBricks(const gpu::BinCounters& bins)
+{
+    return bins.item_carry != 0 || bins.wide_count != 0 || bins.item_count > kIndicesMax ||
+           bins.brick_count > kIndicesMax / gpu::kBrickWords;
+}
+
+bool haveRoom(const BrickCapacities& capacities, const vk::Device& device)
+{
+    return capacities.entries <= VoxelizeCapacities::kBricksMax && capacities.bytes() <= device.memory().roomBytes();
+}
+
+// The capacities that a run by bricks needs, as far as it tells.
+BrickCapacities grownFor(const gpu::BinCounters& bins, const gpu::BrickCounters& nodes, const BrickCapacities& tried)
+{
+    BrickCapacities grown = tried;
+    grown.bricks = std::max<std::uint64_t>(tried.bricks, bins.brick_count);
+    grown.items = std::max<std::uint64_t>(tried.items, bins.item_count);
+    grown.large = std::max<std::uint64_t>(tried.large, bins.large_count);
+    grown.entries = std::max(tried.entries, std::bit_ceil(2 * grown.bricks));
+    if (bins.overflow_count + nodes.overflow_count != 0)
+    {
+        grown.entries = std::max(grown.entries, 4 * tried.entries);
+    }
+    return grown;
+}
+
 std::map<std::string, std::uint64_t> droppedTriangles(const std::vector<gpu::RasterCounters>& rasters)
 {
     std::map<std::string, std::uint64_t> dropped;
@@ -171,6 +199,17 @@ OctreeBuilder::OctreeBuilder(vk::Device& device, const PosedGpuScene& scene, con
                        (options.sum_form || hasLargeTriangles(scene.uploaded(), grid));
     m_result.capacities =
         usable(options.capacities.value_or(VoxelizeCapacities::estimate(scene.uploaded(), grid, m_row_shape)));
+    const bool by_bricks = options.by_bricks.value_or(tunedValue(device, Tunable::VoxelForm) != 0);
+    const bool shares_capacities = options.capacities && tile.depth < grid.depth; // with the other tiles of a grid
+    if (by_bricks && options.attributes && !options.keep_sums && !shares_capacities &&
+        suitsBricks(scene.uploaded(), grid, options.coverage))
+    {
+        m_brick_capacities = BrickCapacities::estimate(scene.uploaded(), grid);
+        if (haveRoom(m_brick_capacities, device))
+        {
+            m_step = {&OctreeBuilder::coverByBricks, &OctreeBuilder::learnBricks};
+        }
+    }
 }
 
 VoxelizeJob OctreeBuilder::voxelizeJob()
@@ -234,16 +273,19 @@ void OctreeBuilder::learnCoverage()
     m_step = {&OctreeBuilder::number, &OctreeBuilder::endNumbers};
 }
 
-void OctreeBuilder::grow(const Growth& growth)
+void OctreeBuilder::requireRetry() const
 {
-    m_coverings.reset();
     if (m_result.retry_count + 1 >= kRetriesMax)
     {
         throw Error(ErrorCode::Memory,
-                    fmt::format("voxelization found no room in {} attempts (last: a table of {} bricks); "
-                                "lower the resolution",
-                                kRetriesMax, m_result.capacities.bricks));
+                    fmt::format("voxelization found no room in {} attempts; lower the resolution", kRetriesMax));
     }
+}
+
+void OctreeBuilder::grow(const Growth& growth)
+{
+    m_coverings.reset();
+    requireRetry();
     // The likely one: fewer runs, where memory allows it.
     const bool fits =
         coverageBytes(growth.likely, m_scene.uploaded(), m_sum_form.mixed) <= m_device.memory().roomBytes();
@@ -262,19 +304,26 @@ void OctreeBuilder::allocateNodes(const gpu::BrickCounters& counters)
     {
         return;
     }
-    const auto listed = m_readback.at<gpu::LevelRange>(m_offsets.ranges, octree.grid.nodeLevels());
-    std::uint32_t first_node = 0; // the list starts with the leaves, the octree with the root
+    addLevels(octree.grid.nodeLevels());
+    octree.nodes = {m_device, "octree/nodes", octree.node_count};
+}
+
+// Adds the levels of the node list, of which there are `count`, to the octree. Returns the number of their nodes.
+std::uint32_t OctreeBuilder::addLevels(std::uint32_t count)
+{
+    const auto listed = m_readback.at<gpu::LevelRange>(m_offsets.ranges, count);
+    std::uint32_t first_node = 0; // the list ends with the root, with which the octree starts
     for (auto range = listed.rbegin(); range != listed.rend(); ++range)
     {
-        octree.levels.push_back({first_node, range->count});
+        m_result.octree.levels.push_back({first_node, range->count});
         first_node += range->count;
     }
-    octree.nodes = {m_device, "octree/nodes", octree.node_count};
+    return first_node;
 }
 
 void OctreeBuilder::number(vk::FrameGraph& graph)
 {
-    numberNodes(graph, m_coverings->voxelize, m_coverings->work, m_result.octree);
+    numberNodes(graph, m_coverings->voxelize.bricks, m_coverings->work, m_result.octree, m_result.octree.levels.size());
 }
 
 void OctreeBuilder::endNumbers()
@@ -376,8 +425,107 @@ void OctreeBuilder::average(vk::FrameGraph& graph)
     averageNodes(graph, m_scene.uploaded(), octree);
 }
 
+void OctreeBuilder::coverByBricks(vk::FrameGraph& graph)
+{
+    if (!m_bricks)
+    {
+        m_device.memory().require(m_brick_capacities.bytes(), "voxelization");
+        m_bricks.emplace(Bricks{{m_device, m_brick_capacities}, {m_device, m_brick_capacities.entries}});
+    }
+    coverBricks(graph, {m_scene, m_tile, m_bricks->bricks});
+    listBricks(graph, m_tile.grid, m_bricks->bricks, m_bricks->work);
+    m_offsets.bins = m_readback.copy(graph, m_bricks->bricks.counters, 0, 1);
+    m_offsets.counters = m_readback.copy(graph, m_bricks->bricks.nodes, 0, 1);
+    m_offsets.ranges = m_readback.copy(graph, m_bricks->work.ranges, 0, m_tile.grid.nodeLevels() - 1);
+}
+
+// Repeats the step with larger buffers if something had no room. What is too large for bricks goes by triangles.
+void OctreeBuilder::learnBricks()
+{
+    const gpu::BinCounters bins = m_readback.at<gpu::BinCounters>(m_offsets.bins, 1).front();
+    const gpu::BrickCounters nodes = m_readback.at<gpu::BrickCounters>(m_offsets.counters, 1).front();
+    const BrickCapacities grown = grownFor(bins, nodes, m_brick_capacities);
+    if (areBeyondBricks(bins) || grown != m_brick_capacities)
+    {
+        m_bricks.reset();
+        requireRetry();
+        if (areBeyondBricks(bins) || !haveRoom(grown, m_device))
+        {
+            m_step = {&OctreeBuilder::cover, &OctreeBuilder::learnCoverage};
+        }
+        m_brick_capacities = grown;
+        ++m_result.retry_count;
+        return;
+    }
+    if (bins.voxel_carry != 0)
+    {
+        throwTooBig("voxels");
+    }
+    gpu::RasterCounters dropped{};
+    dropped.nonfinite = bins.nonfinite;
+    dropped.out_of_range = bins.out_of_range;
+    dropped.outside = bins.outside;
+    dropped.zero_area = bins.zero_area;
+    m_result.dropped = droppedTriangles({dropped});
+    requireIndexable(nodes.node_count + bins.leaf_count, bins.voxel_count);
+    DeviceTree& octree = m_result.octree;
+    octree.node_count = nodes.node_count + bins.leaf_count;
+    octree.voxel_count = bins.voxel_count;
+    if (octree.node_count == 0)
+    {
+        end();
+        return;
+    }
+    const std::uint32_t first_leaf = addLevels(octree.grid.nodeLevels() - 1);
+    octree.levels.push_back({first_leaf, bins.leaf_count});
+    octree.nodes = {m_device, "octree/nodes", octree.node_count};
+    m_unit_count = bins.unit_count;
+    m_summed_voxels = bins.summed_voxels;
+    m_step = {&OctreeBuilder::numberBricks, &OctreeBuilder::endBrickNumbers};
+}
+
+void OctreeBuilder::numberBricks(vk::FrameGraph& graph)
+{
+    numberNodes(graph, m_bricks->bricks.table, m_bricks->work, m_result.octree, m_result.octree.levels.size() - 1);
+}
+
+void OctreeBuilder::endBrickNumbers()
+{
+    m_step = {&OctreeBuilder::brickAttributes, &OctreeBuilder::learnBrickAttributes};
+}
+
+void OctreeBuilder::brickAttributes(vk::FrameGraph& graph)
+{
+    DeviceTree& octree = m_result.octree;
+    if (!m_sums)
+    {
+        m_device.memory().require(octree.voxel_count * sizeof(gpu::Attribute) +
+                                      m_summed_voxels * sizeof(gpu::VoxelSums),
+                                  "averaging the attributes");
+        vk::BufferOf<gpu::Attribute> voxel_attributes(m_device, "octree/voxel_attributes", octree.voxel_count);
+        m_sums.emplace(m_device, octree.voxel_count, m_summed_voxels, false);
+        octree.voxel_attributes = std::move(voxel_attributes);
+    }
+    shadeBricks(graph, {m_scene, m_tile, m_bricks->bricks}, m_bricks->work.items, m_unit_count, *m_sums, octree);
+    m_offsets.max_fragments = m_readback.copy(graph, m_sums->max_fragments, 0, 1);
+}
+
+void OctreeBuilder::learnBrickAttributes()
+{
+    const gpu::uint fragments = m_readback.at<gpu::uint>(m_offsets.max_fragments, 1).front();
+    if (fragments != 0)
+    {
+        m_sums->sum_shift = static_cast<std::uint32_t>(std::bit_width(fragments / (gpu::kFragmentsMax + 1)));
+        ++m_result.retry_count;
+        return;
+    }
+    m_bricks.reset();
+    endVoxelAttributes();
+}
+
 void OctreeBuilder::end()
 {
+    m_bricks.reset();
     m_coverings.reset();
     finish();
 }

@@ -5,6 +5,7 @@
 #include "core/octree/octree_build.h"
 #include "core/tree/device_tree.h"
 #include "core/upload/gpu_scene.h"
+#include "core/voxelize/bricks.h"
 #include "core/voxelize/voxelize.h"
 #include "vk/timer.h"
 #include "zvo/tree.h"
@@ -32,6 +33,9 @@ struct BuildOptions
     /// Likewise, with sums of mixed voxels alone only where triangles are large enough. Where sums are kept, or
     /// something emits light, all voxels have sums in any case.
     std::optional<SumForm> sum_form = std::nullopt;
+    /// Voxelization by bricks, where it can take the scene (suitsBricks), and no sums are kept; not of tiles whose
+    /// capacities are given. By default, what suits the device.
+    std::optional<bool> by_bricks = std::nullopt;
 };
 
 /// GPU time of those passes that belong to an operation, "voxelize" or "octree": its kernels and the fills of its
@@ -80,10 +84,17 @@ private:
         VoxelizeBuffers voxelize;
         OctreeBuildBuffers work;
     };
+    // The bricks with the list of the nodes from them up.
+    struct Bricks
+    {
+        BrickBuffers bricks;
+        OctreeBuildBuffers work;
+    };
     // Where the values of the last step stand in the readback.
     struct ReadbackOffsets
     {
         std::uint64_t counters = 0;
+        std::uint64_t bins = 0;
         std::uint64_t ranges = 0;
         std::vector<std::uint64_t> rasters; // of the material classes that the scene has
         std::uint64_t max_fragments = 0;
@@ -93,7 +104,15 @@ private:
     VoxelizeJob voxelizeJob();
     void cover(vk::FrameGraph& graph);
     void learnCoverage();
+    void coverByBricks(vk::FrameGraph& graph);
+    void learnBricks();
+    void numberBricks(vk::FrameGraph& graph);
+    void endBrickNumbers();
+    void brickAttributes(vk::FrameGraph& graph);
+    void learnBrickAttributes();
+    void requireRetry() const;
     void grow(const Growth& growth);
+    std::uint32_t addLevels(std::uint32_t count);
     void allocateNodes(const gpu::BrickCounters& counters);
     void number(vk::FrameGraph& graph);
     void endNumbers();
@@ -113,6 +132,10 @@ private:
     std::uint32_t m_mixed_count = 0; // mixed voxels, where they alone have sums
     std::optional<Coverings> m_coverings;
     std::optional<AttributeBuffers> m_sums;
+    BrickCapacities m_brick_capacities;
+    std::uint32_t m_unit_count = 0;    // of bricks
+    std::uint32_t m_summed_voxels = 0; // those of bricks with several units
+    std::optional<Bricks> m_bricks;
     std::uint32_t m_emissive_count = 0;
     ReadbackOffsets m_offsets;
 };

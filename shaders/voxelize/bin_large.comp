@@ -1,0 +1,115 @@
+#version 460
+// SPDX-License-Identifier: MIT
+// Sorts large triangles into bricks, kBlockLanes threads a block of them: each takes every kBlockLanes-th column.
+// The test is exact and conservative: that of voxels, at the scale of bricks. In a brick, tiles of columns that the
+// triangle's outline or plane does not reach get no item.
+#extension GL_GOOGLE_include_directive : require
+#include "voxelize/bricks.h"
+
+GPU_ENTRY(BinParams, VOXELIZE_BIN_CONSTANTS);
+layout(local_size_x = kLargeGroup) in;
+
+const uint kCoverage = kCoverageConservative;
+const bool kThin = false;
+
+#define BRICKS_BINDING 0
+#define EDGE_INT int64_t
+#define EDGE_IVEC3 i64vec3
+#define EDGE_WIDE
+#define RASTER_CELL_LOG2 kBrickLatticeLog2
+#include "voxelize/bin.glsl"
+#include "lib/arithmetic.glsl"
+#include "lib/dispatch.glsl"
+#include "voxelize/loads.glsl"
+#include "voxelize/raster.glsl"
+#include "voxelize/snap.glsl"
+
+// Which of the 4x4 tiles of a brick the triangle may have voxels in, bit u + 4 v. cell: the walk's state at the brick.
+// voxels: of the triangle, inside the grid.
+uint tilesOf(RasterTriangle t, RasterCell cell, ivec2 column, CellBox voxels)
+{
+    const int tile_units = kCell / 4;
+    const int half_tile = tile_units / 2;
+    ivec2 corner = column << int(kBrickLog2);
+    ivec2 low = max(voxels.low.xy - corner, ivec2(0)) >> 2;
+    ivec2 high = min(voxels.high.xy - corner, ivec2((1 << kBrickLog2) - 1)) >> 2;
+    // Edge functions at the first tile's centre, with the support of a tile.
+    const int first = half_tile - kCell / 2;
+    i64vec3 support = i64vec3(abs(t.edge_u)) + i64vec3(abs(t.edge_v));
+    i64vec3 row = cell.uv - support * int64_t(kCell / 2 - half_tile) + product(t.edge_u, ivec3(first)) -
+                  product(t.edge_v, ivec3(first));
+    // Both passes over the triangles must find the same.
+    precise vec2 slope = vec2(float(t.rise_u), float(t.rise_v)) * (1.0 / float(t.n_w)); // layers a column
+    ivec2 to_first = corner * kVoxelLattice + half_tile - ivec2(t.u.x, t.v.x);
+    precise vec2 rise = slope * vec2(to_first);
+    precise float height = float(t.w.x - ((cell.w << int(kBrickLog2)) * kVoxelLattice)) + rise.x;
+    height = (height + rise.y) * (1.0 / float(kVoxelLattice));
+    precise float reach = 2.0 * slope.x;
+    reach = reach + 2.0 * slope.y;
+    reach = reach + 2.0; // half a tile, and rounding
+    uint tiles = 0u;
+    for (int v = 0; v < 4; ++v)
+    {
+        i64vec3 edge = row;
+        for (int u = 0; u < 4; ++u)
+        {
+            precise vec2 step = slope * vec2(4 * u, 4 * v);
+            precise float layer = height + step.x;
+            layer = layer + step.y;
+            bool inside = u >= low.x && u <= high.x && v >= low.y && v <= high.y && (edge.x | edge.y | edge.z) >= 0l &&
+                          layer >= -reach && layer <= float(1 << kBrickLog2) + reach;
+            tiles |= inside ? 1u << (u + 4 * v) : 0u;
+            edge -= product(t.edge_v, ivec3(tile_units));
+        }
+        row += product(t.edge_u, ivec3(tile_units));
+    }
+    return tiles;
+}
+
+void binColumn(RasterTriangle t, ivec2 column, CellBox voxels, LargeBlock large)
+{
+    RasterCell cell = startColumn(t, column);
+    int high = min(cell.w_high, t.high.z);
+    for (bool walking = true; walking;)
+    {
+        if (isCovered(t, cell))
+        {
+            uint tiles = tilesOf(t, cell, column, voxels);
+            uint place = kNoPlace;
+            if (tiles != 0u)
+                place = takeItems(brickKey(uvec3(voxelOf(t, column, cell.w)), brickLevel()), bitCount(tiles));
+            if (kWrites)
+                for (; tiles != 0u; tiles &= tiles - 1u)
+                    writeItem(place == kNoPlace ? place : place++, large.draw, uint(findLSB(tiles)), large.triangle);
+        }
+        walking = cell.w < high;
+        moveUp(t, walking, cell);
+    }
+}
+
+void main()
+{
+    uint block_count = min(params.counters.data[0].large_count, params.large_capacity);
+    uint group_count = largeGroups(block_count);
+    if (workgroupIndex() >= group_count)
+        return;
+    uint thread = interleave(workgroupIndex(), group_count) * kLargeGroup + gl_LocalInvocationIndex;
+    if (thread / kBlockLanes >= block_count)
+        return;
+    LargeBlock large = params.large.data[thread / kBlockLanes];
+    Draw draw = loadDraw(large.draw);
+    SnappedTriangle snapped = snapTriangle(draw, loadTriangle(draw.first_triangle + large.triangle), true);
+    uint axis = majorAxis(snapped.normal, snapped.low, snapped.high);
+    RasterTriangle t = setupTriangle(snapped.v0, snapped.v1, snapped.v2, snapped.normal, axis,
+                                     snapped.low >> int(kBrickLog2), snapped.high >> int(kBrickLog2),
+                                     gridResolution() >> int(kBrickLog2));
+    CellBox voxels = boxOf(t.axis, t.mirror, snapped.low, snapped.high);
+    uint row_blocks = (uint(t.high.x - t.low.x + 1) + kBlockBricks - 1u) / kBlockBricks;
+    ivec2 first = t.low.xy + ivec2(kBlockBricks * uvec2(large.block % row_blocks, large.block / row_blocks));
+    uvec2 size = min(uvec2(t.high.xy - first + 1), uvec2(kBlockBricks));
+    for (uint i = thread % kBlockLanes; i < size.x * size.y; i += kBlockLanes)
+    {
+        uint row = divideSmall(i, size.x);
+        binColumn(t, first + ivec2(i - row * size.x, row), voxels, large);
+    }
+}

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: MIT
+// Voxels by bricks (shaders/voxelize/bricks.h): triangles are sorted into blocks of 16^3 cells, then a workgroup owns
+// such a block.
+#pragma once
+
+#include "core/base/grid.h"
+#include "core/deform/dynamic_object.h"
+#include "core/tree/device_tree.h"
+#include "core/upload/gpu_scene.h"
+#include "core/voxelize/voxelize.h"
+#include "vk/frame_graph.h"
+#include "voxelize/bricks.h"
+#include "zvo/types.h"
+
+#include <cstdint>
+
+namespace zvo
+{
+
+/// The capacities of the buffers of bricks.
+struct BrickCapacities
+{
+    std::uint64_t entries = 0; // of the table of bricks and of the nodes above them, a power of two
+    std::uint64_t bricks = 0;  // that triangles may touch
+    std::uint64_t items = 0;   // of all bricks
+    std::uint64_t large = 0;   // blocks of large triangles
+
+    /// A guess from the scene's surface area and the grid; it suffices in most cases.
+    static BrickCapacities estimate(const GpuScene& scene, const Grid& grid);
+
+    /// About the bytes of BrickBuffers, and of octree construction with a table of these.
+    [[nodiscard]] std::uint64_t bytes() const;
+
+    bool operator==(const BrickCapacities&) const = default;
+};
+
+/// The buffers by which triangles get into bricks, and what is known of the bricks.
+struct BrickBuffers
+{
+    BrickBuffers(vk::Device& device, const BrickCapacities& capacities);
+
+    vk::BufferOf<gpu::BrickEntry> table;     // [entries] bricks; octree construction adds the nodes above them
+    vk::BufferOf<gpu::BrickRange> ranges;    // [bricks] in any order
+    vk::BufferOf<gpu::BrickUnit> units;      // [bricks + items / unit_items]
+    vk::BufferOf<gpu::BrickItem> items;      // [items] those of a brick stand together
+    vk::BufferOf<gpu::ItemVoxels> voxels;    // [items]
+    vk::BufferOf<gpu::LargeBlock> large;     // [large]
+    vk::BufferOf<gpu::uint> masks;           // [bricks * gpu::kBrickWords] of leaves
+    vk::BufferOf<gpu::BinCounters> counters; // [1]
+    vk::BufferOf<gpu::BrickCounters> nodes;  // [1] those of octree construction
+    vk::BufferOf<gpu::uint> work_bricks;     // [bricks] of each work item of octree construction, the number in ranges
+    vk::BufferOf<gpu::uint> order;           // [bricks] numbers in ranges, in the order of nodes
+    vk::BufferOf<gpu::uint> partials;        // [ceil(bricks / gpu::kScanBlock)]
+    vk::BufferOf<gpu::uint> total;           // [1]
+};
+
+/// What is voxelized, and into which buffers.
+struct BrickJob
+{
+    PosedGpuScene scene;
+    GridTile tile;
+    BrickBuffers& buffers;
+};
+
+/// Whether voxelization by bricks can take a scene: by thin coverage, if nothing emits light.
+bool suitsBricks(const GpuScene& scene, const Grid& grid, Coverage coverage);
+
+/// Records the passes that put the triangles into bricks, and set the bit of every covered voxel in the masks of these.
+/// What does not fit is counted, never written. Cost: triangles, items, and the capacity of the table once.
+void coverBricks(vk::FrameGraph& graph, const BrickJob& job);
+
+/// Records the passes that write the attributes of the voxels and the nodes of the leaves. The nodes above must have
+/// their numbers (numberNodes). work: [bricks first] work items of octree construction. unit_count: as counted.
+/// attributes.sums: [BinCounters::summed_voxels]. Cost: items, fragments and voxels.
+void shadeBricks(vk::FrameGraph& graph, const BrickJob& job, const vk::BufferOf<gpu::WorkItem>& work,
+                 std::uint32_t unit_count, AttributeBuffers& attributes, DeviceTree& octree);
+
+} // namespace zvo
