@@ -104,15 +104,21 @@ void checkOutputs(std::span<const std::string> outputs, std::span<const std::fil
 void checkPictureName(std::string_view option, const std::string& path, bool radiance)
 {
     const std::string extension = extensionOf(path);
-    if (extension == ".png" || (radiance && (extension == ".exr" || extension == ".hdr")))
+    if (extension == ".png" || (radiance && holdsRadiance(path)))
     {
         return;
     }
     throw Error(ErrorCode::Usage,
-                radiance ? fmt::format("{} {}: pictures of paths are PNG, OpenEXR or Radiance files; name it .png, "
+                radiance ? fmt::format("{} {}: pictures of light are PNG, OpenEXR or Radiance files; name it .png, "
                                        ".exr or .hdr",
                                        option, path)
                          : fmt::format("{} {}: pictures are PNG files; name it .png", option, path));
+}
+
+bool holdsRadiance(const std::string& path)
+{
+    const std::string extension = extensionOf(path);
+    return extension == ".exr" || extension == ".hdr";
 }
 
 std::string extensionOf(const std::string& path)

@@ -47,4 +47,7 @@ void checkPictureName(std::string_view option, const std::string& path, bool rad
 /// The extension of a path in lower case, with its dot.
 std::string extensionOf(const std::string& path);
 
+/// Whether a picture of that name holds radiance as it is: .exr or .hdr.
+bool holdsRadiance(const std::string& path);
+
 } // namespace zvo::cli

@@ -33,6 +33,14 @@ struct EnvironmentOptions
     float strength = 1.0F;
 };
 
+/// What a picture is made of unless options say otherwise.
+inline FrameOptions usualFrame()
+{
+    FrameOptions frame;
+    frame.trace.occlusion_rays = 8; // of each sample, in other directions
+    return frame;
+}
+
 struct RenderOptions
 {
     VoxelOptions voxels;
@@ -42,22 +50,28 @@ struct RenderOptions
     std::uint32_t height = 720;
     std::string camera; // as given; empty: the scene's first one, or a fitting one
     std::optional<std::filesystem::path> camera_path;
-    FrameOptions frame;
+    FrameOptions frame = usualFrame();
     std::optional<glm::dvec3> to_sun;     // direction, any length
-    EnvironmentOptions environment;       // this and the next two: of pictures with samples
+    EnvironmentOptions environment;       // not of Integrator::Primary
     std::optional<std::uint32_t> samples; // a pixel
-    std::optional<double> time_limit;     // seconds, after which no sample begins
+    std::optional<double> time_limit;     // seconds, after which no sample begins; of pictures with samples
     std::uint32_t settle = 128;           // frames before the first picture; Integrator::Cache and Cones
     bool aovs = false;                    // writes what the picture shows beside its light, too; Integrator::Path
     std::optional<std::pair<std::uint32_t, std::uint32_t>> frames; // first and last
     std::optional<TreeStructure> structure; // of the static part; not given: an octree, or the file's
     bool rebuild = false;                   // voxelizes everything for each picture, instead of merging dynamic objects
 
-    /// Whether pictures are sums of samples.
-    [[nodiscard]] bool hasSamples() const { return frame.integrator != Integrator::Primary; }
+    /// Whether pictures may hold radiance as it is, of any brightness.
+    [[nodiscard]] bool hasRadiance() const
+    {
+        return frame.integrator != Integrator::Primary || frame.trace.view == View::Color;
+    }
 
-    /// The samples of a pixel: paths, or frames.
-    [[nodiscard]] std::uint32_t sampleCount() const { return samples.value_or(usesCache(frame.integrator) ? 16 : 64); }
+    /// The samples of a pixel: primary rays, paths, or frames.
+    [[nodiscard]] std::uint32_t sampleCount() const
+    {
+        return samples.value_or(frame.integrator == Integrator::Primary ? 4 : usesCache(frame.integrator) ? 16 : 64);
+    }
 };
 
 /// `zvo render`: voxelizes scenes and writes a picture of them, or a series. Throws Error.

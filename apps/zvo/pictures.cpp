@@ -16,7 +16,7 @@ Pictures::Pictures(const RenderOptions& options) : m_options(options)
     const std::string& path = options.output.path;
     if (path != "-")
     {
-        checkPictureName("-o", path, options.hasSamples());
+        checkPictureName("-o", path, options.hasRadiance());
     }
     if (!options.frames)
     {

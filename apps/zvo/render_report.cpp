@@ -140,9 +140,13 @@ Json RenderReport::json(std::uint64_t capped_rays, const DeviceRadianceCache* ca
     {
         json["cached"] = cacheJson(*cache);
     }
-    else if (m_times.front().samples != 0)
+    else if (m_options.frame.integrator == Integrator::Path)
     {
         json["paths"] = pathsJson();
+    }
+    else if (m_times.front().samples != 0)
+    {
+        json["primary"] = samplesJson();
     }
     if (!m_frames.empty())
     {
@@ -151,7 +155,7 @@ Json RenderReport::json(std::uint64_t capped_rays, const DeviceRadianceCache* ca
     return json;
 }
 
-// What both kinds of pictures with samples have in common.
+// What all kinds of pictures with samples have in common.
 Json RenderReport::samplesJson() const
 {
     const EnvironmentOptions& environment = m_options.environment;
@@ -205,6 +209,14 @@ Json RenderReport::cacheJson(const DeviceRadianceCache& cache) const
     return json;
 }
 
+const char* RenderReport::sampleName() const
+{
+    const Integrator integrator = m_options.frame.integrator;
+    return integrator == Integrator::Primary ? "samples a pixel"
+           : integrator == Integrator::Path  ? "paths a pixel"
+                                             : "frames";
+}
+
 void RenderReport::tell(std::uint32_t picture_count, std::uint64_t capped_rays) const
 {
     if (m_times.size() < picture_count)
@@ -217,8 +229,7 @@ void RenderReport::tell(std::uint32_t picture_count, std::uint64_t capped_rays) 
     }
     if (m_times.front().samples != 0)
     {
-        talk(fmt::format("{}; {} {} in {:.1f} ms on {}", m_built, m_times.front().samples,
-                         m_options.frame.integrator == Integrator::Path ? "paths a pixel" : "frames",
+        talk(fmt::format("{}; {} {} in {:.1f} ms on {}", m_built, m_times.front().samples, sampleName(),
                          m_times.front().trace_ms, m_device.device().report().name));
         return;
     }

@@ -63,6 +63,7 @@ private:
     [[nodiscard]] Json pathsJson() const;
     [[nodiscard]] Json cacheJson(const DeviceRadianceCache& cache) const;
     [[nodiscard]] Json samplesJson() const;
+    [[nodiscard]] const char* sampleName() const;
 
     const RenderOptions& m_options;
     vk::HeadlessDevice& m_device;

@@ -46,6 +46,7 @@ FrameOptions frameOptions(const RenderOptions& options)
 {
     constexpr std::uint32_t kHistory = 8; // earlier pictures that count
     FrameOptions frame = options.frame;
+    frame.antialias = options.sampleCount() > 1 || holdsRadiance(options.output.path);
     frame.trace.to_sun = options.to_sun.value_or(frame.trace.to_sun);
     frame.path.features = options.aovs;
     frame.history_max = kHistory * options.sampleCount();
@@ -58,7 +59,7 @@ FrameOptions frameOptions(const RenderOptions& options)
 Renderer::Renderer(vk::HeadlessDevice& device, const RenderOptions& options)
     : m_device(device), m_options(options), m_frame(frameOptions(options)), m_renderer(device.device())
 {
-    if (options.hasSamples())
+    if (options.frame.integrator != Integrator::Primary)
     {
         m_environment = readEnvironment(device.device(), options);
     }
@@ -100,23 +101,28 @@ void Renderer::setSize()
 std::vector<std::uint8_t> Renderer::render(const ViewCamera& view, Progress& progress, PictureTimes& times)
 {
     m_camera_before = std::exchange(m_camera, traceCamera(view, m_tree->grid, m_options.height));
-    if (m_frame.integrator != Integrator::Primary)
+    if (m_frame.hasSamples())
     {
         if (std::optional<std::vector<std::uint8_t>> picture = renderSamplesOrWarn(progress, times))
         {
             return std::move(*picture);
         }
         m_frame.integrator = Integrator::Primary;
+        m_frame.antialias = false;
         m_renderer.dropSamples();
         show(*m_tree);
     }
-    return renderPrimary(times);
+    return renderAtOnce(times);
 }
 
-std::vector<std::uint8_t> Renderer::renderPrimary(PictureTimes& times)
+FrameSubject Renderer::subject()
 {
-    const FrameSubject subject = {*m_tree, *m_camera};
-    times.passes = m_device.run([&](vk::FrameGraph& graph) { m_renderer.render(graph, subject, m_frame); });
+    return {*m_tree, *m_camera, m_environment ? &*m_environment : nullptr};
+}
+
+std::vector<std::uint8_t> Renderer::renderAtOnce(PictureTimes& times)
+{
+    times.passes = m_device.run([&](vk::FrameGraph& graph) { m_renderer.render(graph, subject(), m_frame); });
     times.trace_ms = primaryMs(times.passes);
     times.shade_ms = sumMs(times.passes) - times.trace_ms;
     m_capped_rays += m_device.download(m_renderer.buffers().status).front().capped_rays;
@@ -151,7 +157,7 @@ std::vector<std::uint8_t> Renderer::renderSamples(Progress& progress, PictureTim
     if (!m_watch)
     {
         m_watch.emplace();
-        if (m_options.environment.map == "none" && !m_options.to_sun && !hasEmission(*m_tree))
+        if (m_environment && m_options.environment.map == "none" && !m_options.to_sun && !hasEmission(*m_tree))
         {
             talk("warning: nothing gives off light: the scene has no emissive voxels, --environment is none, and there "
                  "is no --sun");
@@ -164,8 +170,11 @@ std::vector<std::uint8_t> Renderer::renderSamples(Progress& progress, PictureTim
         append(times.passes, m_device.run([&](vk::FrameGraph& graph) { m_renderer.denoise(graph, m_frame); }));
     }
     times.trace_ms = sumMs(times.passes);
-    const auto& status = usesCache(m_frame.integrator) ? m_renderer.cache().status() : m_renderer.pathStatus();
-    m_capped_rays = m_device.download(status).front().capped_rays; // of all pictures so far
+    if (m_frame.integrator != Integrator::Primary)
+    {
+        const auto& status = usesCache(m_frame.integrator) ? m_renderer.cache().status() : m_renderer.pathStatus();
+        m_capped_rays = m_device.download(status).front().capped_rays; // of all pictures so far
+    }
     return encodeSamples(times);
 }
 
@@ -197,6 +206,10 @@ void Renderer::addSamples(Clock::time_point begin, Progress& progress, PictureTi
     {
         append(times.passes,
                m_device.run([&](vk::FrameGraph& graph) { m_renderer.addSample(graph, subject(), m_frame); }));
+        if (m_frame.integrator == Integrator::Primary)
+        {
+            m_capped_rays += m_device.download(m_renderer.buffers().status).front().capped_rays;
+        }
         ++times.samples;
         progress.within(static_cast<double>(times.samples) / asked, fmt::format("{}/{} samples", times.samples, asked));
     }
@@ -216,13 +229,14 @@ std::vector<std::uint8_t> Renderer::encodePicture()
 
 std::vector<std::uint8_t> Renderer::encodeSamples(PictureTimes& times)
 {
-    const std::string extension = extensionOf(m_options.output.path);
-    if (extension == ".exr" || extension == ".hdr")
+    if (holdsRadiance(m_options.output.path))
     {
         const SampledPicture picture = m_renderer.samples(m_frame);
         const HdrImage image =
             pictureOf(m_device.download(picture.sums), picture.width, picture.height, picture.sample_count);
-        return extension == ".hdr" ? encodeHdr(image) : m_options.aovs ? encodeWithAovs(image) : encodeExr(image);
+        return extensionOf(m_options.output.path) == ".hdr" ? encodeHdr(image)
+               : m_options.aovs                             ? encodeWithAovs(image)
+                                                            : encodeExr(image);
     }
     m_device.run([&](vk::FrameGraph& graph) { m_renderer.develop(graph, m_frame); });
     times.exposure = m_device.download(m_renderer.exposure()).front();

@@ -21,7 +21,7 @@ struct PictureTimes
     std::vector<vk::PassTime> passes;
     double trace_ms = 0;           // beam and primary rays
     double shade_ms = 0;           // shadow and occlusion rays, and colour
-    std::uint32_t samples = 0;     // a pixel; 0: by primary rays, otherwise all is in trace_ms
+    std::uint32_t samples = 0;     // a pixel; 0: the picture has none, otherwise all is in trace_ms
     std::optional<float> exposure; // of samples; nothing where the picture holds radiance as it is
 };
 
@@ -57,8 +57,8 @@ private:
     using Clock = std::chrono::steady_clock;
 
     void setSize();
-    [[nodiscard]] FrameSubject subject() { return {*m_tree, *m_camera, &*m_environment}; }
-    std::vector<std::uint8_t> renderPrimary(PictureTimes& times);
+    [[nodiscard]] FrameSubject subject();
+    std::vector<std::uint8_t> renderAtOnce(PictureTimes& times);
     std::optional<std::vector<std::uint8_t>> renderSamplesOrWarn(Progress& progress, PictureTimes& times);
     std::vector<std::uint8_t> renderSamples(Progress& progress, PictureTimes& times);
     void settle(Progress& progress, PictureTimes& times);
@@ -71,7 +71,7 @@ private:
     const RenderOptions& m_options;
     FrameOptions m_frame;
     FrameRenderer m_renderer;
-    std::optional<DeviceEnvironment> m_environment; // where pictures have samples
+    std::optional<DeviceEnvironment> m_environment; // nothing for Integrator::Primary
     std::optional<InterruptWatch> m_watch;          // from the first picture with samples on
     const DeviceTree* m_tree = nullptr;             // the tree that is shown
     std::optional<TraceCamera> m_camera;            // of the last picture

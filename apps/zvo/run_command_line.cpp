@@ -100,8 +100,10 @@ void addPathOptions(CLI::App& render, RenderOptions& options)
 {
     addNamed(render, "--integrator", options.frame.integrator, kIntegrators, kIntegratorHelp);
     PathOptions& path = options.frame.path;
-    addValue(render, "--spp", options.samples, integerIn(1, 1U << 24), "N",
-             fmt::format("paths a pixel, or frames of --integrator cache, 1 to {} (default 64, or 16)", 1U << 24));
+    addValue(
+        render, "--spp", options.samples, integerIn(1, 1U << 24), "N",
+        fmt::format("samples a pixel: primary rays, paths, or frames of cache and cones, 1 to {} (default 4, 64 or 16)",
+                    1U << 24));
     addValue(render, "--bounces", path.bounces, integerIn(0, kBouncesMax), "N",
              fmt::format("diffuse reflections of a path, 0 to {} (default 8)", kBouncesMax));
     addValue(render, "--seed", path.seed, integerIn(0, UINT32_MAX), "N",
@@ -133,7 +135,7 @@ void addPathOptions(CLI::App& render, RenderOptions& options)
              "paths advance together, or one kernel follows each to its end; the picture is the same (default: as is "
              "faster on the device)");
     addValue(render, "--time-limit", options.time_limit, parseSeconds, "SECONDS",
-             "begin no more paths after this time; the picture shows those that were traced");
+             "begin no more samples after this time; the picture shows those that were traced");
 }
 
 void addOptions(CLI::App& render, RenderOptions& options)
@@ -154,8 +156,9 @@ void addOptions(CLI::App& render, RenderOptions& options)
         "at --time")
         ->excludes("--camera");
     addNamed(render, "--view", options.frame.trace.view, kViews, viewHelp())->type_name("VIEW");
-    addValue(render, "--occlusion", options.frame.trace.occlusion_rays, integerIn(0, kOcclusionRaysMax), "RAYS",
-             fmt::format("rays a pixel that find how much of the sky it sees, 0 to {} (default 0)", kOcclusionRaysMax));
+    addValue(
+        render, "--occlusion", options.frame.trace.occlusion_rays, integerIn(0, kOcclusionRaysMax), "RAYS",
+        fmt::format("rays a sample that find how much of the sky it sees, 0 to {} (default 8)", kOcclusionRaysMax));
     addValue(render, "--sun", options.to_sun, parseDirection, "x,y,z", "direction to the sun (default -0.6,0.75,0.45)");
     addPathOptions(render, options);
     addValue(
@@ -289,26 +292,24 @@ void checkIntegratorOptions(const RenderOptions& options)
     using Integrators = std::initializer_list<Integrator>;
     const Integrators of_paths = {Integrator::Path};
     const Integrators of_cache = {Integrator::Cache, Integrator::Cones};
-    const Integrators of_samples = {Integrator::Path, Integrator::Cache, Integrator::Cones};
+    const Integrators of_light = {Integrator::Path, Integrator::Cache, Integrator::Cones};
     const Integrators of_primary = {Integrator::Primary};
     const RenderOptions plain;
     const FrameOptions& frame = options.frame;
     const EnvironmentOptions& environment = options.environment;
     const std::tuple<const char*, bool, Integrators> given[] = {
-        {"--spp", options.samples.has_value(), of_samples},
         {"--bounces", frame.path.bounces != plain.frame.path.bounces, of_paths},
-        {"--seed", frame.path.seed != plain.frame.path.seed, of_samples},
+        {"--seed", frame.path.seed != plain.frame.path.seed, of_light},
         {"--settle", options.settle != plain.settle, of_cache},
         {"--rays", frame.radiance != plain.frame.radiance, of_cache},
         {"--aperture", frame.path.lens_radius != plain.frame.path.lens_radius, of_paths},
         {"--focus", frame.path.focus_distance != plain.frame.path.focus_distance, of_paths},
-        {"--environment", environment.map.has_value(), of_samples},
-        {"--environment-turn", environment.turn != plain.environment.turn, of_samples},
-        {"--environment-strength", environment.strength != plain.environment.strength, of_samples},
+        {"--environment", environment.map.has_value(), of_light},
+        {"--environment-turn", environment.turn != plain.environment.turn, of_light},
+        {"--environment-strength", environment.strength != plain.environment.strength, of_light},
         {"--denoise", frame.denoise, of_paths},
         {"--aov", options.aovs, of_paths},
         {"--path-form", frame.path_form.has_value(), of_paths},
-        {"--time-limit", options.time_limit.has_value(), of_samples},
         {"--view", frame.trace.view != plain.frame.trace.view, of_primary},
         {"--occlusion", frame.trace.occlusion_rays != plain.frame.trace.occlusion_rays, of_primary},
         {"--detail", frame.trace.detail_pixels != plain.frame.trace.detail_pixels, of_primary},
@@ -323,6 +324,11 @@ void checkIntegratorOptions(const RenderOptions& options)
                                                             nameOf(kIntegrators, frame.integrator))
                                               : fmt::format("{} needs --integrator {}", name, first));
         }
+    }
+    if (options.samples && frame.trace.view != plain.frame.trace.view)
+    {
+        throw Error(ErrorCode::Usage, fmt::format("--spp does not go with --view {}, which has no light",
+                                                  nameOf(kViews, frame.trace.view)));
     }
     const bool has_map = environment.map && *environment.map != "none";
     if (environment.turn != plain.environment.turn && !has_map)

@@ -269,6 +269,16 @@ struct PathTraceParams // push constants of path/trace: a workgroup takes kPathG
     CONSTANT(11, bool, features, kFeatures, false)
 GPU_KERNEL(path, trace, Trace, PathTraceParams, PATH_TRACE_CONSTANTS)
 
+struct PathAddPictureParams // push constants of path/add_picture: a thread a pixel
+{
+    GPU_CONST_PTR(uint) picture; // [2 * width * height] texels of kTexelHalf
+    GPU_PTR(PixelSum) sums;      // [width * height] in the order of strips
+    uint width;
+    uint height;
+};
+#define PATH_ADD_PICTURE_CONSTANTS(CONSTANT) CONSTANT(0, bool, adds, kAdds, false) /* to sums that are there */
+GPU_KERNEL(path, add_picture, AddPicture, PathAddPictureParams, PATH_ADD_PICTURE_CONSTANTS)
+
 // The automatic exposure: counts of pixels by the logarithm of their luminance.
 const uint kMeterBins = 256u;
 const uint kMeterPixels = 1024u;    // of a workgroup

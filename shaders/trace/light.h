@@ -85,6 +85,7 @@ struct OcclusionParams // push constants of trace/occlusion
     uint height;
     uint ray_count;
     float radius; // unit space
+    float turn;   // of the pattern, radians
 };
 #define TRACE_OCCLUSION_CONSTANTS(CONSTANT)                                                                            \
     TRAVERSE_CONSTANTS(CONSTANT)                                                                                       \

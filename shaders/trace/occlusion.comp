@@ -1,7 +1,7 @@
 #version 460
 // SPDX-License-Identifier: MIT
 // Estimates how much of the sky's light arrives at hits: a few short rays, spread over the hemisphere by the cosine in
-// the same fixed pattern for every pixel (a Fibonacci lattice). One workgroup for each live tile. The rays of a pixel
+// the same pattern for every pixel (a Fibonacci lattice), which each sample turns. One workgroup for each live tile. The rays of a pixel
 // share the iterations that an invocation has; those for which none are left count as open.
 #extension GL_GOOGLE_include_directive : require
 #include "trace/light.h"
@@ -52,7 +52,7 @@ void main()
     for (uint k = 0u; k < params.ray_count; ++k)
     {
         float u = (float(k) + 0.5) / float(params.ray_count);
-        vec3 toward = frame * cosineDirection(u, kGoldenAngle * float(k));
+        vec3 toward = frame * cosineDirection(u, kGoldenAngle * float(k) + params.turn);
         Traversal ray = traverse(point.origin, inverseDirection(toward), kTraceTimeMin, end, vec2(0.0), uvec3(0u),
                                  max(iterations_left, 1u));
         float way = ray.face == kFaceInside ? kInsideShare : ray.t / max(end, kTraceTimeMin);

@@ -106,7 +106,7 @@ TEST_F(CliCache, TracesWithoutLightIfThereIsNoRoom)
     const std::string told = run(kCached + "-o small.png --memory-limit 14M").err;
     EXPECT_TRUE(contains(told, "warning: no radiance cache")) << told;
     EXPECT_TRUE(contains(told, "--memory-limit")) << told;
-    run("render cube.glb --size 40x30 --resolution 16 -o primary.png");
+    run("render cube.glb --size 40x30 --resolution 16 -o primary.png --spp 1");
     EXPECT_TRUE(file("small.png") == file("primary.png"));
     EXPECT_EQ(runZvo(m_dir.path(), kCached + "-o small.exr --memory-limit 14M").exit_code, 6);
 }

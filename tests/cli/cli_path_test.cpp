@@ -90,6 +90,30 @@ TEST_F(CliPath, RadianceIsWrittenAsItIs)
     }
 }
 
+// A pixel of many samples is the mean of the pixels that a larger picture of one sample has in its place.
+TEST_F(CliPath, SamplesOfPrimaryRaysSmoothEdges)
+{
+    constexpr std::uint32_t kFactor = 16;
+    const std::string scene = "render cube.glb -f --resolution 16 --camera 3,2,6,0.5,0.5,0.5,30 --occlusion 0 -o ";
+    const json report = printedBy(scene + "small.exr --size 20x15 --spp 512 --json -");
+    EXPECT_EQ(report["primary"]["samples"], 512);
+    EXPECT_EQ(report["capped_rays"], 0);
+    run(scene + "large.exr --size 320x240 --spp 1");
+    const std::vector<glm::vec3> small = radiance("small.exr");
+    const std::vector<glm::vec3> large = radiance("large.exr");
+    ASSERT_EQ(large.size(), kFactor * kFactor * small.size());
+    for (std::uint32_t pixel = 0; pixel < small.size(); ++pixel)
+    {
+        const std::uint32_t corner = pixel / 20 * kFactor * 320 + pixel % 20 * kFactor;
+        glm::vec3 mean(0.0F);
+        for (std::uint32_t i = 0; i < kFactor * kFactor; ++i)
+        {
+            mean += large[corner + i / kFactor * 320 + i % kFactor] / float{kFactor * kFactor};
+        }
+        EXPECT_LT(glm::length(small[pixel] - mean), 0.03F) << pixel;
+    }
+}
+
 TEST_F(CliPath, TheReportTellsHowPathsWereTraced)
 {
     const auto reported = [this](const std::string& options)
@@ -220,12 +244,12 @@ TEST_F(CliPath, TuningKeepsThePicture)
 TEST_F(CliPath, ErrorsNameTheOption)
 {
     const std::string primary = kCube + "-o x.png ";
-    expectError(primary + "--spp 3", 2, {"--spp", "--integrator path"});
+    expectError(primary + "--spp 3 --view normal", 2, {"--spp", "--view normal"});
     expectError(primary + "--environment sky.exr", 2, {"--environment", "--integrator path"});
     expectError(primary + "--path-form stages", 2, {"--path-form", "--integrator path"});
     expectError(primary + "--denoise", 2, {"--denoise", "--integrator path"});
     expectError(primary + "--integrator light", 2, {"--integrator", "light"});
-    expectError(kCube + "-o x.exr", 2, {".png"});
+    expectError(kCube + "-o x.exr --view normal", 2, {".png"});
     const std::string path = kPath + "-o x.png ";
     expectError(path + "--path-form waves", 2, {"--path-form"});
     expectError(path + "--view normal", 2, {"--view"});

@@ -112,9 +112,13 @@ protected:
         return file("shown.png");
     }
 
+    /// The picture of `zvo render`. By primary rays it has one sample, like a steady frame.
     [[nodiscard]] std::string render(const std::string& arguments) const
     {
-        run("render -o rendered.png -f " + arguments);
+        const auto given = [&](std::string_view option) { return arguments.find(option) != std::string::npos; };
+        const bool is_lit = !given("--integrator") && !given("--view");
+        run("render -o rendered.png -f " + arguments + (is_lit ? " --spp 1" : "") +
+            (is_lit && !given("--occlusion") ? " --occlusion 0" : ""));
         return file("rendered.png");
     }
 

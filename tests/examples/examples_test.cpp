@@ -99,13 +99,19 @@ protected:
         EXPECT_EQ(outcome.err, "") << name;
     }
 
-    // The command line's picture of a file, with the examples' camera.
+    // The command line's picture of a file, with the examples' camera; by default of one sample without occlusion, as
+    // hosts trace it.
     Picture render(const std::vector<std::string>& scene, const std::vector<std::string>& more = {})
     {
         std::vector<std::string> arguments = {"render", "-f",      "-o",       "cli.png",
                                               "--size", "320x200", "--camera", kCamera};
         arguments.insert(arguments.end(), scene.begin(), scene.end());
         arguments.insert(arguments.end(), more.begin(), more.end());
+        if (std::ranges::find_if(more, [](const std::string& it) { return it == "--view" || it == "--integrator"; }) ==
+            more.end())
+        {
+            arguments.insert(arguments.end(), {"--spp", "1", "--occlusion", "0"});
+        }
         const Outcome outcome = test::runZvo(m_folder.path(), arguments);
         EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
         return readPng(path("cli.png"));

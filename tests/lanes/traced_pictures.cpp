@@ -58,6 +58,12 @@ void tracePictures(const DeviceTree& tree)
             graph.fill(status, 0);
             traceRays(graph, tree, rays, hits, rounds, status, {});
         });
+    FrameRenderer samples(device().device());
+    samples.resize(buffers.width, buffers.height);
+    for (std::uint32_t sample = 0; sample < 2; ++sample)
+    {
+        run([&](vk::FrameGraph& graph) { samples.addSample(graph, {tree, camera}, {.antialias = true}); });
+    }
 }
 
 void tracePaths(const DeviceTree& tree)

@@ -55,7 +55,7 @@ void ShotTaker::record(vk::FrameGraph& graph, const DeviceTree& tree, NodePaths&
     for (std::size_t i = 0; i < kViews.size(); ++i)
     {
         options.view = kViews[i];
-        shade(graph, tree, camera, options, m_buffers);
+        shade(graph, tree, camera, options, m_buffers, {m_buffers.image, m_buffers.texels});
         graph.copy(m_buffers.image, 0, m_pictures, i * m_buffers.image.bytes(), m_buffers.image.bytes());
     }
 }

@@ -36,9 +36,16 @@ struct FrameOptions
     bool denoise = false;                             // Integrator::Path: filters the noise of few samples (Denoiser)
     std::uint32_t history_max = 16;                   // as in Denoiser::denoise()
     RadianceOptions radiance = {};                    // Integrator::Cache and Cones
-    Exposure exposure = {};                           // Integrator::Primary: the factor alone
+    bool antialias = false; // Integrator::Primary: pictures are means of samples, each through another point of pixels
+    Exposure exposure = {}; // Integrator::Primary: the factor alone
 
     bool operator==(const FrameOptions&) const = default;
+
+    /// Whether the picture is developed of samples; otherwise one sample makes it.
+    [[nodiscard]] bool hasSamples() const
+    {
+        return shownIntegrator() != Integrator::Primary || (antialias && trace.view == View::Color);
+    }
 
     /// The integrator of the picture: views other than colour have no light.
     [[nodiscard]] Integrator shownIntegrator() const

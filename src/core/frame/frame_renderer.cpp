@@ -27,7 +27,7 @@ bool denoises(const FrameOptions& options)
 void FrameRenderer::render(vk::FrameGraph& graph, const FrameSubject& subject, const FrameOptions& options,
                            vk::BufferOf<gpu::DispatchArgs>* ray_lists)
 {
-    if (usesCache(options.shownIntegrator()))
+    if (options.shownIntegrator() != Integrator::Path)
     {
         beginPicture(options);
     }
@@ -45,7 +45,14 @@ void FrameRenderer::addSample(vk::FrameGraph& graph, const FrameSubject& subject
     {
         TraceOptions trace = options.trace;
         trace.exposure = options.exposure.factor;
-        m_tracer.trace(graph, subject.tree, subject.camera, trace);
+        if (options.hasSamples())
+        {
+            primaryOfSize().add(graph, m_tracer, subject.tree, subject.camera, trace);
+        }
+        else
+        {
+            m_tracer.trace(graph, subject.tree, subject.camera, trace);
+        }
         break;
     }
     case Integrator::Path:
@@ -84,9 +91,11 @@ void FrameRenderer::denoise(vk::FrameGraph& graph, const FrameOptions& options)
 
 void FrameRenderer::develop(vk::FrameGraph& graph, const FrameOptions& options)
 {
-    if (options.shownIntegrator() != Integrator::Primary)
+    if (options.hasSamples())
     {
-        developer().develop(graph, samples(options), buffers().texels, options.exposure, m_tracer.image());
+        Exposure exposure = options.exposure;
+        exposure.automatic = exposure.automatic && options.shownIntegrator() != Integrator::Primary;
+        developer().develop(graph, samples(options), buffers().texels, exposure, m_tracer.image());
     }
 }
 
@@ -121,8 +130,12 @@ void FrameRenderer::reserve(const DeviceTree& tree, const FrameOptions& options)
         viewOfSize();
         cache().reserve(tree, buffers().width, buffers().height, options.radiance);
     }
-    if (integrator != Integrator::Primary)
+    if (options.hasSamples())
     {
+        if (integrator == Integrator::Primary)
+        {
+            primaryOfSize();
+        }
         developer();
     }
 }
@@ -158,6 +171,17 @@ RadianceView& FrameRenderer::viewOfSize()
     return *m_view;
 }
 
+PrimarySamples& FrameRenderer::primaryOfSize()
+{
+    const std::uint32_t width = buffers().width;
+    const std::uint32_t height = buffers().height;
+    if (m_primary == nullptr || m_primary->picture().width != width || m_primary->picture().height != height)
+    {
+        vk::replace(m_deletion_queue, m_primary, std::make_unique<PrimarySamples>(m_device, width, height));
+    }
+    return *m_primary;
+}
+
 DeviceRadianceCache& FrameRenderer::cache()
 {
     if (m_cache == nullptr)
@@ -186,6 +210,10 @@ void FrameRenderer::beginPicture(const FrameOptions& options)
     {
         m_paths->forget();
     }
+    if (options.integrator == Integrator::Primary && m_primary != nullptr)
+    {
+        m_primary->begin();
+    }
 }
 
 void FrameRenderer::forgetSamples()
@@ -206,14 +234,16 @@ void FrameRenderer::dropSamples()
     vk::replace(m_deletion_queue, m_denoiser, {});
     vk::replace(m_deletion_queue, m_cache, {});
     vk::replace(m_deletion_queue, m_view, {});
+    vk::replace(m_deletion_queue, m_primary, {});
     vk::replace(m_deletion_queue, m_developer, {});
 }
 
 SampledPicture FrameRenderer::samples(const FrameOptions& options) const
 {
-    return usesCache(options.integrator) ? m_view->picture()
-           : denoises(options)           ? m_denoiser->picture()
-                                         : m_paths->picture();
+    return usesCache(options.integrator)               ? m_view->picture()
+           : options.integrator == Integrator::Primary ? m_primary->picture()
+           : denoises(options)                         ? m_denoiser->picture()
+                                                       : m_paths->picture();
 }
 
 std::uint64_t FrameRenderer::rayListElements(const FrameOptions& options) const
@@ -225,7 +255,7 @@ std::uint64_t FrameRenderer::bytes() const
 {
     const auto bytesOf = [](const auto& part) { return part == nullptr ? std::uint64_t{0} : part->bytes(); };
     return buffers().bytes() + bytesOf(m_paths) + bytesOf(m_denoiser) + bytesOf(m_cache) + bytesOf(m_view) +
-           bytesOf(m_developer);
+           bytesOf(m_primary) + bytesOf(m_developer);
 }
 
 } // namespace zvo

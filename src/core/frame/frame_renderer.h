@@ -3,6 +3,7 @@
 
 #include "core/denoise/denoiser.h"
 #include "core/frame/frame_options.h"
+#include "core/frame/primary_samples.h"
 #include "core/light/environment.h"
 #include "core/path/develop.h"
 #include "core/path/path_tracer.h"
@@ -51,22 +52,21 @@ public:
     /// Error{Memory}; then what pictures show stays as it was.
     void reserve(const DeviceTree& tree, const FrameOptions& options);
 
-    /// Records the passes of a whole frame, and makes the picture: addSample(), denoise() and develop(). The radiance
-    /// cache begins a new picture. ray_lists: as in PathTracer::addSample().
+    /// Records the passes of a whole frame, and makes the picture: addSample(), denoise() and develop(). All but paths
+    /// begin a new picture. ray_lists: as in PathTracer::addSample().
     void render(vk::FrameGraph& graph, const FrameSubject& subject, const FrameOptions& options,
                 vk::BufferOf<gpu::DispatchArgs>* ray_lists = nullptr);
 
-    /// Records the passes that make the picture of primary rays, or add a sample to each pixel of samples(). Paths
-    /// begin anew by themselves (PathTracer::addSample()); pictures by the radiance cache do so after beginPicture(),
-    /// and their samples go through other points of the pixels, the same of each. Throws Error{Memory}. Cost: that of
-    /// the integrator.
+    /// Records the passes that add a sample to each pixel of samples(), or make the picture where options have none.
+    /// Paths begin anew by themselves (PathTracer::addSample()); others do so after beginPicture(), and their samples
+    /// go through other points of the pixels, the same of each. Throws Error{Memory}. Cost: that of the integrator.
     void addSample(vk::FrameGraph& graph, const FrameSubject& subject, const FrameOptions& options,
                    vk::BufferOf<gpu::DispatchArgs>* ray_lists = nullptr);
 
     /// Records the passes that smooth samples(), where options ask for it. Cost: pixels.
     void denoise(vk::FrameGraph& graph, const FrameOptions& options);
 
-    /// Records the passes that make the picture of samples(). Primary rays have made it already. Cost: pixels.
+    /// Records the passes that make the picture of samples(), where options have any. Cost: pixels.
     void develop(vk::FrameGraph& graph, const FrameOptions& options);
 
     /// Records the passes that make the node paths of a tree, if they are out of date. Primary rays begin with this.
@@ -132,6 +132,7 @@ private:
     PathTracer& pathsOfSize(const FrameOptions& options);
     Denoiser& denoiserOfSize();
     RadianceView& viewOfSize();
+    PrimarySamples& primaryOfSize();
     Developer& developer();
     void updateCache(vk::FrameGraph& graph, const FrameSubject& subject, const TraceCamera& camera,
                      const FrameOptions& options);
@@ -143,6 +144,7 @@ private:
     std::unique_ptr<Denoiser> m_denoiser;
     std::unique_ptr<DeviceRadianceCache> m_cache;
     std::unique_ptr<RadianceView> m_view;
+    std::unique_ptr<PrimarySamples> m_primary;
     std::unique_ptr<Developer> m_developer;
 };
 

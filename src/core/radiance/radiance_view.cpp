@@ -9,13 +9,6 @@
 namespace zvo
 {
 
-glm::vec2 pointOfPixel(std::uint32_t frame)
-{
-    constexpr glm::dvec2 kSteps = {0.7548776662466927, 0.5698402909980532};
-    const glm::dvec2 point = glm::fract(0.5 + static_cast<double>(frame) * kSteps) - 0.5;
-    return point;
-}
-
 /// What a frame of the picture is made of.
 struct RadianceView::Work
 {

@@ -16,10 +16,6 @@ enum class CacheView : std::uint8_t
     Cones, ///< what comes to them through six cones (C. Crassin et al., 2011), to compare with
 };
 
-/// Where the rays of a frame go through pixels, from their middles: evenly over them in any number of frames, and in
-/// the middle in the first (M. Roberts, The Unreasonable Effectiveness of Quasirandom Sequences, 2018).
-glm::vec2 pointOfPixel(std::uint32_t frame);
-
 /// A picture by the radiance cache. Owns its buffers.
 class RadianceView
 {

@@ -187,4 +187,11 @@ TraceCamera shifted(const TraceCamera& camera, const glm::vec2& pixels)
     return result;
 }
 
+glm::vec2 pointOfPixel(std::uint32_t sample)
+{
+    constexpr glm::dvec2 kSteps = {0.7548776662466927, 0.5698402909980532};
+    const glm::dvec2 point = glm::fract(0.5 + static_cast<double>(sample) * kSteps) - 0.5;
+    return point;
+}
+
 } // namespace zvo

@@ -55,4 +55,8 @@ TraceCamera traceCamera(const ViewCamera& camera, const Grid& grid, std::uint32_
 /// The forward direction of a perspective one is not orthogonal to its pixels, but a ray's time is still the depth.
 TraceCamera shifted(const TraceCamera& camera, const glm::vec2& pixels);
 
+/// Where the rays of a sample go through pixels, from their middles: evenly over them in any number of samples, and in
+/// the middle in the first (M. Roberts, The Unreasonable Effectiveness of Quasirandom Sequences, 2018).
+glm::vec2 pointOfPixel(std::uint32_t sample);
+
 } // namespace zvo

@@ -115,12 +115,18 @@ void tracePrimary(vk::FrameGraph& graph, const DeviceTree& tree, const NodePaths
 void trace(vk::FrameGraph& graph, const DeviceTree& tree, const NodePaths& paths, const TraceCamera& camera,
            const TraceOptions& options, TraceBuffers& buffers)
 {
+    traceTo(graph, tree, paths, camera, options, buffers, {buffers.image, buffers.texels});
+}
+
+void traceTo(vk::FrameGraph& graph, const DeviceTree& tree, const NodePaths& paths, const TraceCamera& camera,
+             const TraceOptions& options, TraceBuffers& buffers, const TexelTarget& target)
+{
     tracePrimary(graph, tree, paths, camera, options, buffers);
     if (needsLight(options))
     {
         traceLight(graph, tree, paths, camera, options, buffers);
     }
-    shade(graph, tree, camera, options, buffers);
+    shade(graph, tree, camera, options, buffers, target);
 }
 
 void traceRays(vk::FrameGraph& graph, const DeviceTree& tree, const vk::BufferOf<gpu::Ray>& rays,

@@ -45,6 +45,7 @@ struct TraceOptions
     float exposure = TraceInfo().exposure;
     std::uint32_t occlusion_rays = TraceInfo().occlusion_rays;
     float occlusion_reach = TraceInfo().occlusion_reach;
+    float occlusion_turn = 0; // radians about the normal by which the pattern of these rays is turned
     float detail_pixels = TraceInfo().detail_pixels;
     std::uint32_t detail_level = UINT32_MAX; // stop at this level of nodes
     /// Of an invocation. Fewer only for tests: of later rounds, and of beams that end sooner.
@@ -101,9 +102,16 @@ void tracePrimary(vk::FrameGraph& graph, const DeviceTree& tree, const NodePaths
 void traceLight(vk::FrameGraph& graph, const DeviceTree& tree, const NodePaths& paths, const TraceCamera& camera,
                 const TraceOptions& options, TraceBuffers& buffers);
 
-/// Records the passes that make buffers.image of hits and, where options ask for it, light.
+/// Where a picture goes, [width * height * texelWords(format)].
+struct TexelTarget
+{
+    vk::BufferOf<gpu::uint>& texels;
+    TexelFormat format;
+};
+
+/// Records the passes that make a picture of hits and, where options ask for it, light.
 void shade(vk::FrameGraph& graph, const DeviceTree& tree, const TraceCamera& camera, const TraceOptions& options,
-           TraceBuffers& buffers);
+           const TraceBuffers& buffers, const TexelTarget& target);
 
 /// Records the pass that reports what the ray of a pixel meets. To be recorded after trace() of the same tree with the
 /// same camera, options and buffers. report: [1]. Where the tree has no attributes or options show none, report.look is
@@ -111,9 +119,13 @@ void shade(vk::FrameGraph& graph, const DeviceTree& tree, const TraceCamera& cam
 void inspectPixel(vk::FrameGraph& graph, const DeviceTree& tree, const TraceCamera& camera, const TraceOptions& options,
                   const TraceBuffers& buffers, glm::uvec2 pixel, vk::BufferOf<gpu::PixelReport>& report);
 
-/// Records all passes from a camera to a picture: tracePrimary(), traceLight() where needed, shade().
+/// Records all passes from a camera to buffers.image: tracePrimary(), traceLight() where needed, shade().
 void trace(vk::FrameGraph& graph, const DeviceTree& tree, const NodePaths& paths, const TraceCamera& camera,
            const TraceOptions& options, TraceBuffers& buffers);
+
+/// Records the same passes, but for a picture that goes elsewhere.
+void traceTo(vk::FrameGraph& graph, const DeviceTree& tree, const NodePaths& paths, const TraceCamera& camera,
+             const TraceOptions& options, TraceBuffers& buffers, const TexelTarget& target);
 
 /// How many elements of a list of rays count, where only the device knows: a word, and the workgroups for it.
 struct RayListLength

@@ -20,18 +20,18 @@ gpu::vec3 sunDirection(const TraceOptions& options)
 
 // Records the pass that fills the picture with what rays see that hit nothing.
 void drawBackground(vk::FrameGraph& graph, const TraceCamera& camera, const TraceOptions& options,
-                    TraceBuffers& buffers)
+                    const TraceBuffers& buffers, const TexelTarget& target)
 {
     const bool shows_sky = options.view == View::Color;
-    if (!shows_sky && buffers.texels != TexelFormat::Half) // black is one word
+    if (!shows_sky && target.format != TexelFormat::Half) // black is one word
     {
-        graph.fill(buffers.image, buffers.texels == TexelFormat::Rgb10 ? 3U << 30 : 255U << 24);
+        graph.fill(target.texels, target.format == TexelFormat::Rgb10 ? 3U << 30 : 255U << 24);
         return;
     }
     vk::Pass pass = graph.addPass(
-        gpu::trace::Sky{.orthographic = camera.orthographic, .texels = buffers.texels, .black = !shows_sky});
+        gpu::trace::Sky{.orthographic = camera.orthographic, .texels = target.format, .black = !shows_sky});
     gpu::SkyParams params{};
-    params.image = pass.write(buffers.image);
+    params.image = pass.write(target.texels);
     params.forward = camera.rays.forward;
     params.half_pixel_x = camera.rays.half_pixel_x;
     params.half_pixel_y = camera.rays.half_pixel_y;
@@ -76,13 +76,14 @@ Params lightParams(vk::AnyPass& pass, const DeviceTree& tree, const NodePaths& p
 
 // The parameters that both kernels share which give hits their colours.
 template <typename Params>
-Params shadeParams(vk::AnyPass& pass, const DeviceTree& tree, const TraceCamera& camera, TraceBuffers& buffers)
+Params shadeParams(vk::AnyPass& pass, const DeviceTree& tree, const TraceCamera& camera, const TraceBuffers& buffers,
+                   const TexelTarget& target)
 {
     Params params{};
     params.live = pass.read(buffers.live);
     params.hits = pass.read(buffers.hits);
     readAttributes(pass, tree, params);
-    params.image = pass.readWrite(buffers.image);
+    params.image = pass.readWrite(target.texels);
     params.forward = camera.rays.forward;
     params.half_pixel_x = camera.rays.half_pixel_x;
     params.half_pixel_y = camera.rays.half_pixel_y;
@@ -92,7 +93,7 @@ Params shadeParams(vk::AnyPass& pass, const DeviceTree& tree, const TraceCamera&
 }
 
 void shadeLit(vk::FrameGraph& graph, const DeviceTree& tree, const TraceCamera& camera, const TraceOptions& options,
-              TraceBuffers& buffers)
+              const TraceBuffers& buffers, const TexelTarget& target)
 {
     vk::Pass pass =
         graph.addPass(gpu::trace::Shade{.node_levels = tree.grid.nodeLevels(),
@@ -100,8 +101,8 @@ void shadeLit(vk::FrameGraph& graph, const DeviceTree& tree, const TraceCamera& 
                                         .format = formatToRead(tree, options),
                                         .emission = usesAttributes(tree, options) && tree.emission.count() != 0,
                                         .light = needsLight(options),
-                                        .texels = buffers.texels});
-    auto params = shadeParams<gpu::ShadeParams>(pass, tree, camera, buffers);
+                                        .texels = target.format});
+    auto params = shadeParams<gpu::ShadeParams>(pass, tree, camera, buffers, target);
     params.light = pass.read(buffers.light);
     params.emission_words = pass.read(tree.emission_words);
     params.emission = pass.read(tree.emission);
@@ -112,14 +113,14 @@ void shadeLit(vk::FrameGraph& graph, const DeviceTree& tree, const TraceCamera& 
 }
 
 void shadeView(vk::FrameGraph& graph, const DeviceTree& tree, const TraceCamera& camera, const TraceOptions& options,
-               TraceBuffers& buffers)
+               const TraceBuffers& buffers, const TexelTarget& target)
 {
     vk::Pass pass = graph.addPass(gpu::trace::Views{.view = options.view,
                                                     .node_levels = tree.grid.nodeLevels(),
                                                     .orthographic = camera.orthographic,
                                                     .format = formatToRead(tree, options),
-                                                    .texels = buffers.texels});
-    auto params = shadeParams<gpu::ViewsParams>(pass, tree, camera, buffers);
+                                                    .texels = target.format});
+    auto params = shadeParams<gpu::ViewsParams>(pass, tree, camera, buffers, target);
     params.iterations = pass.read(buffers.light);
     params.depth_range = depthRange(tree.grid, camera);
     params.first_changed_voxel = tree.voxel_count;
@@ -157,6 +158,7 @@ void traceLight(vk::FrameGraph& graph, const DeviceTree& tree, const NodePaths& 
         auto params = lightParams<gpu::OcclusionParams>(pass, tree, paths, camera, options, buffers);
         params.light = pass.readWrite(buffers.light);
         params.ray_count = std::min(options.occlusion_rays, kOcclusionRaysMax);
+        params.turn = options.occlusion_turn;
         params.radius =
             options.occlusion_reach * static_cast<float>(grid.resolution()) / static_cast<float>(grid.rootResolution());
         pass.dispatchIndirect(buffers.args, 0, params, buffers.live.count());
@@ -164,16 +166,16 @@ void traceLight(vk::FrameGraph& graph, const DeviceTree& tree, const NodePaths& 
 }
 
 void shade(vk::FrameGraph& graph, const DeviceTree& tree, const TraceCamera& camera, const TraceOptions& options,
-           TraceBuffers& buffers)
+           const TraceBuffers& buffers, const TexelTarget& target)
 {
-    drawBackground(graph, camera, options, buffers);
+    drawBackground(graph, camera, options, buffers, target);
     if (options.view == View::Color)
     {
-        shadeLit(graph, tree, camera, options, buffers);
+        shadeLit(graph, tree, camera, options, buffers, target);
     }
     else
     {
-        shadeView(graph, tree, camera, options, buffers);
+        shadeView(graph, tree, camera, options, buffers, target);
     }
 }
 

@@ -48,4 +48,11 @@ void TreeTracer::trace(vk::FrameGraph& graph, const DeviceTree& tree, const Trac
     zvo::trace(graph, tree, *m_paths, camera, options, *m_buffers);
 }
 
+void TreeTracer::traceTo(vk::FrameGraph& graph, const DeviceTree& tree, const TraceCamera& camera,
+                         const TraceOptions& options, const TexelTarget& target)
+{
+    prepare(graph, tree);
+    zvo::traceTo(graph, tree, *m_paths, camera, options, *m_buffers, target);
+}
+
 } // namespace zvo

@@ -31,7 +31,7 @@ public:
     /// Error{Memory}; then nothing changes.
     void reserve(const DeviceTree& tree);
 
-    /// Records the passes that make the node paths of tree, if they are out of date (buildNodePaths()). Both functions
+    /// Records the passes that make the node paths of tree, if they are out of date (buildNodePaths()). The functions
     /// below begin with this one.
     void prepare(vk::FrameGraph& graph, const DeviceTree& tree);
 
@@ -39,6 +39,10 @@ public:
     void tracePrimary(vk::FrameGraph& graph, const DeviceTree& tree, const TraceCamera& camera,
                       const TraceOptions& options);
     void trace(vk::FrameGraph& graph, const DeviceTree& tree, const TraceCamera& camera, const TraceOptions& options);
+
+    /// Records what trace() records, for a picture that goes elsewhere.
+    void traceTo(vk::FrameGraph& graph, const DeviceTree& tree, const TraceCamera& camera, const TraceOptions& options,
+                 const TexelTarget& target);
 
     /// Has the node paths made anew for the next picture: because the last frame was lost, or kernels may have changed.
     void forget() { m_paths_version = 0; }
