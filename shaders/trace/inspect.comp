@@ -1,7 +1,7 @@
 #version 460
 // SPDX-License-Identifier: MIT
-// Reports on the hit of one pixel's ray. The ray is traced once more from the root, so that the number of iterations is
-// that of the ray alone.
+// Reports on the hits of single pixels' rays. They are traced once more from the root, so that the number of iterations
+// is that of the ray alone.
 #extension GL_GOOGLE_include_directive : require
 #include "trace/trace.h"
 
@@ -32,10 +32,12 @@ uint nodeAround(uvec3 cell, uint level)
 
 void main()
 {
-    if (threadIndex() != 0u)
+    uint index = threadIndex();
+    if (index >= params.count)
         return;
+    uint at = params.pixels.data[index];
     uvec2 size = uvec2(params.width, params.height);
-    uvec2 pixel = uvec2(params.pixel % size.x, params.pixel / size.x);
+    uvec2 pixel = uvec2(at % size.x, at / size.x);
     vec3 offset = rayOffset(pixelOffset(pixel, size), params.camera.half_pixel_x, params.camera.half_pixel_y);
     precise vec3 direction = params.camera.forward + (kOrthographic ? vec3(0.0) : offset);
     precise vec3 origin = params.camera.origin + (kOrthographic ? offset : vec3(0.0));
@@ -49,11 +51,11 @@ void main()
     report.level = met.level;
     report.face = met.face;
     report.node = met.hit ? nodeAround(met.cell, met.level) : 0u;
-    report.index = met.hit ? loadHit(params.hits, params.pixel).index : 0u;
+    report.index = met.hit ? loadHit(params.hits, at).index : 0u;
     report.look = Attribute(0u, 0u);
     if (kFormat != kFormatNone && met.hit)
         report.look =
             readAttribute(kFormat, met.level == kNodeLevels, params.attributes, params.node_attributes, report.index);
     report.iterations = met.iterations;
-    params.report.data[0] = report;
+    params.reports.data[index] = report;
 }

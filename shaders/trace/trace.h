@@ -153,17 +153,18 @@ struct PixelReport
 };
 GPU_BUFFER(PixelReport, 4);
 
-struct InspectParams // push constants of trace/inspect: kArgsGroup threads, of which one works
+struct InspectParams // push constants of trace/inspect: one thread a pixel
 {
     GPU_CONST_PTR(Node) nodes;
     GPU_CONST_PTR(Hit) hits;
     GPU_CONST_PTR(Attribute) attributes; // of voxels, in the format of kFormat
     GPU_CONST_PTR(Attribute) node_attributes;
-    GPU_PTR(PixelReport) report; // [1]
+    GPU_CONST_PTR(uint) pixels;     // [count], row by row
+    GPU_PTR(PixelReport) reports;   // [count]
     CameraRays camera;
     uint width;
     uint height;
-    uint pixel; // row by row
+    uint count;
     vec2 detail;
 };
 #define TRACE_INSPECT_CONSTANTS(CONSTANT)                                                                              \

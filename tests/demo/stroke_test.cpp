@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: MIT
-// Which voxels under the pointer become dabs, when looks are answered late.
+// Which voxels on the way of the pointer become dabs, when looks are answered late.
 #include "demo/input/pointer_ray.h"
 #include "demo/world/stroke.h"
 
 #include <gtest/gtest.h>
 
-#include <cstdint>
+#include <algorithm>
 #include <deque>
+#include <optional>
+#include <string>
 #include <vector>
 
 namespace zvo::demo
@@ -14,60 +16,124 @@ namespace zvo::demo
 namespace
 {
 
-// Frames whose probes are answered late.
+// Frames whose looks are answered late. The window shows a wall of voxels, each of them four units wide.
 class LateAnswers
 {
 public:
-    explicit LateAnswers(std::size_t late) : m_late(late) {}
+    explicit LateAnswers(std::size_t late, DabSpacing spacing = {}) : m_late(late), m_spacing(spacing) {}
 
     void frame(Stroke& stroke)
     {
-        m_probes.push_back(stroke.probe());
-        if (m_probes.size() > m_late)
+        std::vector<std::optional<glm::ivec3>> voxels;
+        for (const glm::dvec2& at : stroke.takePoints())
         {
-            if (stroke.found(m_probes.front(), true))
+            points.push_back(at);
+            voxels.push_back(at.x < hole_begin || at.x >= hole_end ? std::optional(glm::ivec3(at.x / 4, at.y / 4, 0))
+                                                                   : std::nullopt);
+        }
+        m_looks.push_back(voxels);
+        if (m_looks.size() > m_late)
+        {
+            for (const glm::ivec3& dab : stroke.found(m_looks.front(), m_spacing))
             {
-                dabs.push_back(m_probes.front());
+                dabs.push_back(dab);
             }
             ends += stroke.takeEnd() ? 1 : 0;
-            m_probes.pop_front();
+            m_looks.pop_front();
         }
     }
 
-    std::vector<std::uint64_t> dabs; // probes that became dabs
+    void finish(Stroke& stroke)
+    {
+        for (int i = 0; i < 10; ++i)
+        {
+            frame(stroke);
+        }
+    }
+
+    double hole_begin = 1e9; // through which nothing is seen
+    double hole_end = 1e9;
+    std::vector<glm::dvec2> points;
+    std::vector<glm::ivec3> dabs;
     int ends = 0;
 
 private:
     std::size_t m_late;
-    std::deque<std::uint64_t> m_probes;
+    DabSpacing m_spacing;
+    std::deque<std::vector<std::optional<glm::ivec3>>> m_looks;
 };
 
-TEST(Stroke, ADabForEachPlaceOfThePointerAndOneEnd)
+double largestGap(const std::vector<glm::ivec3>& dabs)
 {
-    for (const std::size_t late : {0U, 1U, 2U, 3U})
+    double gap = 0;
+    for (std::size_t i = 1; i < dabs.size(); ++i)
     {
-        SCOPED_TRACE(late);
-        Stroke stroke;
-        LateAnswers answers(late);
-        answers.frame(stroke);
-        stroke.move(); // while the button is released
-        answers.frame(stroke);
-        EXPECT_TRUE(answers.dabs.empty());
-        stroke.press();
-        answers.frame(stroke);
-        answers.frame(stroke); // no move, so no other dab
-        stroke.move();
-        stroke.move();
-        answers.frame(stroke);
-        stroke.release();
-        for (int i = 0; i < 5; ++i)
-        {
-            answers.frame(stroke);
-        }
-        EXPECT_EQ(answers.dabs.size(), 2U);
-        EXPECT_EQ(answers.ends, 1);
-        EXPECT_FALSE(stroke.isActive());
+        gap = std::max(gap, glm::distance(glm::dvec3(dabs[i - 1]), glm::dvec3(dabs[i])));
     }
+    return gap;
+}
+
+TEST(Stroke, HasNoGapsHoweverFastThePointerMoves)
+{
+    for (const std::size_t late : {0U, 1U, 3U})
+    {
+        for (const double step : {1.0, 7.0, 80.0, 700.0})
+        {
+            SCOPED_TRACE(std::to_string(late) + " frames late, " + std::to_string(step) + " units a frame");
+            Stroke stroke;
+            LateAnswers answers(late, {.step = 2, .reach = 20});
+            stroke.move({500, 0}); // while the button is up
+            answers.frame(stroke);
+            EXPECT_TRUE(answers.points.empty());
+            stroke.press({0, 0});
+            for (double x = 0; x < 1400; x += step)
+            {
+                stroke.move({x, x / 2});
+                answers.frame(stroke);
+            }
+            stroke.move({1400, 700});
+            stroke.release();
+            stroke.move({0, 0});
+            answers.finish(stroke);
+            EXPECT_EQ(answers.ends, 1);
+            EXPECT_FALSE(stroke.isActive());
+            ASSERT_FALSE(answers.dabs.empty());
+            EXPECT_EQ(answers.dabs.front(), glm::ivec3(0));
+            EXPECT_LT(glm::distance(glm::dvec3(answers.dabs.back()), glm::dvec3(350, 175, 0)), 2.0);
+            EXPECT_LE(largestGap(answers.dabs), 3.0) << "the step, and rounding";
+            EXPECT_GE(answers.dabs.size(), 190U);
+            EXPECT_LE(answers.dabs.size(), 400U) << "not closer together than needed";
+        }
+    }
+}
+
+TEST(Stroke, JoinsVoxelsThatAreFarFromEachOtherButNotOverAHoleOrAJump)
+{
+    const auto stroke = [](const std::vector<std::optional<glm::ivec3>>& voxels)
+    {
+        Stroke made;
+        made.press({0, 0});
+        made.move({2.0 * static_cast<double>(voxels.size() - 1), 0});
+        EXPECT_EQ(made.takePoints().size(), voxels.size());
+        return made.found(voxels, {.step = 3, .reach = 12});
+    };
+    using Dabs = std::vector<glm::ivec3>;
+    EXPECT_EQ(stroke({glm::ivec3(0), glm::ivec3(0, 0, 9)}), (Dabs{{0, 0, 0}, {0, 0, 3}, {0, 0, 6}, {0, 0, 9}}));
+    EXPECT_EQ(stroke({glm::ivec3(0), glm::ivec3(0, 0, 2)}), Dabs{glm::ivec3(0)});
+    EXPECT_EQ(stroke({glm::ivec3(0), glm::ivec3(0, 0, 13)}), (Dabs{{0, 0, 0}, {0, 0, 13}})) << "something behind";
+    EXPECT_EQ(stroke({glm::ivec3(0), std::nullopt, glm::ivec3(0, 9, 0)}), (Dabs{{0, 0, 0}, {0, 9, 0}}));
+}
+
+TEST(Stroke, AFrameLooksAtSoManyPointsAndTheNextOneGoesOn)
+{
+    Stroke stroke;
+    stroke.press({0, 0});
+    stroke.move({2.0 * static_cast<double>(Stroke::kLooksMax) + 100, 0});
+    stroke.release();
+    EXPECT_EQ(stroke.takePoints().size(), Stroke::kLooksMax);
+    EXPECT_EQ(stroke.takePoints().size(), 51U);
+    EXPECT_TRUE(stroke.takePoints().empty());
+    EXPECT_FALSE(stroke.takeEnd());
 }
 
 TEST(Stroke, AClickWithinAFrameIsADab)
@@ -76,44 +142,38 @@ TEST(Stroke, AClickWithinAFrameIsADab)
     {
         Stroke stroke;
         LateAnswers answers(late);
-        stroke.press();
+        stroke.press({5, 5});
         stroke.release();
-        for (int i = 0; i < 5; ++i)
-        {
-            answers.frame(stroke);
-        }
-        EXPECT_EQ(answers.dabs.size(), 1U);
+        answers.finish(stroke);
+        EXPECT_EQ(answers.dabs, std::vector{glm::ivec3(1, 1, 0)});
         EXPECT_EQ(answers.ends, 1);
     }
 }
 
-TEST(Stroke, AClickBeforeTheLastOneWasAnsweredLosesNothing)
+TEST(Stroke, AClickBeforeTheLastOneWasAnsweredLosesNothingAndIsNotJoinedToIt)
 {
     Stroke stroke;
-    LateAnswers answers(2);
-    stroke.press();
+    LateAnswers answers(2, {.step = 1, .reach = 100});
+    stroke.press({0, 0});
     stroke.release();
     answers.frame(stroke);
-    stroke.press();
+    stroke.press({200, 0});
     stroke.release();
-    for (int i = 0; i < 6; ++i)
-    {
-        answers.frame(stroke);
-    }
-    EXPECT_EQ(answers.dabs.size(), 2U);
+    answers.finish(stroke);
+    EXPECT_EQ(answers.dabs, (std::vector{glm::ivec3(0), glm::ivec3(50, 0, 0)}));
     EXPECT_EQ(answers.ends, 1);
 }
 
 TEST(Stroke, WhereNothingIsFoundThereIsNoDabButAnEnd)
 {
     Stroke stroke;
-    stroke.press();
+    LateAnswers answers(1);
+    answers.hole_begin = 0;
+    stroke.press({5, 5});
     stroke.release();
-    EXPECT_FALSE(stroke.found(stroke.probe() - 1, true)) << "of an older pointer";
-    EXPECT_FALSE(stroke.takeEnd());
-    EXPECT_FALSE(stroke.found(stroke.probe(), false));
-    EXPECT_TRUE(stroke.takeEnd());
-    EXPECT_FALSE(stroke.takeEnd());
+    answers.finish(stroke);
+    EXPECT_TRUE(answers.dabs.empty());
+    EXPECT_EQ(answers.ends, 1);
 }
 
 TEST(PointerRay, GoesThroughThePixel)
@@ -129,6 +189,15 @@ TEST(PointerRay, GoesThroughThePixel)
     const glm::dvec3 on_plane = onPlane(pointerRay(camera, {0, 0}, size), camera, {5, 5, -3});
     EXPECT_NEAR(on_plane.z, -3, 1e-12);
     EXPECT_NEAR(on_plane.x, -6 * half, 1e-12);
+    for (const glm::dvec2& at : {glm::dvec2(0, 0), glm::dvec2(130, 77)})
+    {
+        const PointerRay ray = pointerRay(camera, at, size);
+        const std::optional<glm::dvec2> seen = pointOf(camera, ray.origin + 3.0 * ray.direction, size);
+        ASSERT_TRUE(seen);
+        EXPECT_NEAR(seen->x, at.x, 1e-9);
+        EXPECT_NEAR(seen->y, at.y, 1e-9);
+    }
+    EXPECT_FALSE(pointOf(camera, {0, 0, 1}, size)) << "behind the camera";
     camera.orthographic = true;
     camera.half_height = 4;
     const PointerRay ray = pointerRay(camera, {200, 100}, size);

@@ -45,8 +45,10 @@ void tracePictures(const DeviceTree& tree)
     coarse.detail_level = 2;
     const TraceCamera camera = traceCamera(view, tree.grid, buffers.height);
     run([&](vk::FrameGraph& graph) { trace(graph, tree, paths, camera, coarse, buffers); });
-    vk::BufferOf<gpu::PixelReport> report(device().device(), "report", 1);
-    run([&](vk::FrameGraph& graph) { inspectPixel(graph, tree, camera, coarse, buffers, {8, 4}, report); });
+    const vk::BufferOf<gpu::uint> pixels =
+        device().makeBuffer<gpu::uint>("pixels", std::vector<gpu::uint>{4 * buffers.width + 8, 0});
+    vk::BufferOf<gpu::PixelReport> reports(device().device(), "reports", pixels.count());
+    run([&](vk::FrameGraph& graph) { inspectPixels(graph, tree, camera, coarse, buffers, pixels, reports); });
     const gpu::Ray ray = {{1.1F, 1.2F, 1.3F}, 0.0F, {-1.0F, -2.0F, 3.0F}, 4.0F};
     const vk::BufferOf<gpu::Ray> rays = device().makeBuffer<gpu::Ray>("rays", std::vector<gpu::Ray>(3, ray));
     vk::BufferOf<gpu::Hit> hits(device().device(), "hits", rays.count());

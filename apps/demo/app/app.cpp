@@ -264,6 +264,7 @@ void App::buildPanels()
     m_ui.build(size, m_window.framebufferSize(), m_frame_seconds,
                [this]
                {
+                   m_has_overlay = drawOverlay();
                    if (!m_panels.shows_panels)
                    {
                        return;
@@ -305,18 +306,6 @@ void App::keepSettings()
     settings.shows_keys = m_panels.shows_keys;
     settings.view = m_view;
     writeSettings(*file, settings);
-}
-
-std::optional<glm::uvec2> App::pixelUnderMouse() const
-{
-    const PictureSize size = m_window.size();
-    const PictureSize pixels = m_window.framebufferSize();
-    if (!m_mouse || !(m_mouse->x >= 0 && m_mouse->x < size.width && m_mouse->y >= 0 && m_mouse->y < size.height))
-    {
-        return std::nullopt;
-    }
-    const glm::uvec2 pixel(m_mouse->x * pixels.width / size.width, m_mouse->y * pixels.height / size.height);
-    return glm::min(pixel, glm::uvec2(pixels.width - 1, pixels.height - 1));
 }
 
 void App::showTitle()

@@ -60,6 +60,17 @@ public:
 private:
     using Clock = std::chrono::steady_clock;
 
+    // What a frame is asked about single pixels.
+    struct FrameLooks
+    {
+        std::unique_ptr<PixelProbe> probe; // null: nothing is asked
+        // Places in the probe's reports:
+        std::optional<std::size_t> inspected; // the pixel under the pointer
+        glm::uvec2 inspected_pixel{0U};
+        std::optional<std::size_t> color;               // for the brush
+        std::vector<std::optional<std::size_t>> stroke; // nothing: outside of the window
+    };
+
     // A frame that is under way on the device.
     struct FrameInFlight
     {
@@ -70,10 +81,8 @@ private:
         Integrator integrator = Integrator::Primary;
         std::unique_ptr<vk::BufferOf<gpu::DispatchArgs>> ray_lists; // of path tracing
         std::unique_ptr<Screenshot> screenshot;
-        bool is_last_picture = false;        // the screenshot is the one that the command line asks for
-        std::optional<glm::uvec2> inspected; // pixel of the window
-        std::uint64_t probe = 0;             // number of that request, for the editor
-        std::unique_ptr<vk::BufferOf<gpu::PixelReport>> report;
+        bool is_last_picture = false; // the screenshot is the one that the command line asks for
+        FrameLooks looks;
 
         /// Once the device is done.
         [[nodiscard]] RaysOfFrame rays() const
@@ -95,12 +104,16 @@ private:
     void perform(const KeyBinding& binding, Key key);
     void advanceTime();
     void buildPanels();
+    bool drawOverlay();
+    bool drawBrushCursor();
     void buildPanel();
     void toolsPanel();
     void draw();
     bool prepare(const Picture& picture);
     void submit(Picture& picture, FrameInFlight frame);
     void finishOldest();
+    FrameLooks takeLooks();
+    void answer(const FrameLooks& looks);
     void keep(const FrameInFlight& frame);
     void finishAll();
     std::unique_ptr<Screenshot> takeScreenshot(PictureSize size);
@@ -125,7 +138,7 @@ private:
     void reloadChangedShaders();
     void keepSettings();
 
-    [[nodiscard]] std::optional<glm::uvec2> pixelUnderMouse() const;
+    [[nodiscard]] std::optional<glm::uvec2> pixelAt(const glm::dvec2& point) const;
     [[nodiscard]] double aspect() const;
     [[nodiscard]] double internalScale() const;
     [[nodiscard]] double worldSeconds() const;
@@ -178,6 +191,7 @@ private:
     Clock::time_point m_frame_start;
     double m_frame_seconds = 0; // that this frame takes
     std::optional<double> m_first_frame_ms;
+    bool m_has_overlay = false;  // over the picture, whether or not panels are shown
     bool m_lacks_memory = false; // for a picture of the window's size
     bool m_quits = false;
 };

@@ -79,13 +79,8 @@ void App::perform(const KeyBinding& binding, Key key)
     case Action::NextBrush:
     case Action::SmallerBrush:
     case Action::LargerBrush:
-        return m_editor.perform(binding.action);
     case Action::TakeColor:
-        if (m_inspected)
-        {
-            m_editor.takeColor(m_inspected->report);
-        }
-        return;
+        return m_editor.perform(binding.action);
     case Action::Undo:
         return request(UndoStroke{});
     case Action::Redo:

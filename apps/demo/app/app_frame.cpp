@@ -54,7 +54,7 @@ void App::draw()
     {
         return;
     }
-    if (m_panels.shows_panels)
+    if (m_panels.shows_panels || m_has_overlay)
     {
         picture.panels = [this](VkCommandBuffer commands) { m_ui.draw(commands); };
     }
@@ -65,21 +65,10 @@ void App::draw()
     if (frame.screenshot != nullptr)
     {
         picture.screenshot = &frame.screenshot->pixels();
-        picture.screenshot_has_panels = frame.screenshot->hasPanels();
+        picture.screenshot_has_panels = frame.screenshot->hasPanels() && m_panels.shows_panels;
     }
-    frame.probe = m_editor.probe();
-    frame.inspected = m_panels.shows_panels || m_editor.wantsPixel() ? pixelUnderMouse() : std::nullopt;
-    if (m_editor.wantsPixel() && !frame.inspected) // the pointer has left the picture
-    {
-        m_editor.found(m_editor.probe(), gpu::PixelReport{}, *m_world);
-    }
-    if (frame.inspected)
-    {
-        frame.report = std::make_unique<vk::BufferOf<gpu::PixelReport>>(m_device.device(), "inspected pixel", 1,
-                                                                        vk::MemoryKind::Readback);
-        picture.inspected = frame.inspected;
-        picture.report = frame.report.get();
-    }
+    frame.looks = takeLooks();
+    picture.probe = frame.looks.probe.get();
     if (const std::uint64_t elements = m_renderer.rayListElements(); elements != 0)
     {
         frame.ray_lists = std::make_unique<vk::BufferOf<gpu::DispatchArgs>>(m_device.device(), "ray lists", elements,
@@ -172,11 +161,7 @@ void App::finishOldest()
     {
         m_first_frame_ms = Milliseconds(Clock::now() - m_start).count();
     }
-    if (frame.inspected)
-    {
-        m_inspected = {*frame.inspected, *frame.report->mappedData()};
-        m_editor.found(frame.probe, m_inspected->report, *m_world);
-    }
+    answer(frame.looks);
     if (m_ladder && frame.internal_scale == m_ladder->scale())
     {
         m_ladder->add(m_stats.gpuMs().last());

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "demo/app/editor.h"
 
+#include "demo/world/hit_face.h"
+
 #include <algorithm>
+#include <cmath>
 #include <utility>
 #include <variant>
 
@@ -15,7 +18,10 @@ void Editor::handle(const InputEvent& event, const ViewCamera& camera, const glm
     if (const auto* const move = std::get_if<MouseMoveEvent>(&event))
     {
         m_pointer = {move->x, move->y};
-        m_stroke.move();
+        if (m_used.tool == Tool::Brush)
+        {
+            m_stroke.move(m_pointer);
+        }
         drag(world);
     }
     const auto* const button = std::get_if<MouseButtonEvent>(&event);
@@ -33,9 +39,10 @@ void Editor::handle(const InputEvent& event, const ViewCamera& camera, const glm
         if (!m_stroke.isActive())
         {
             m_used = state;
+            m_dabs.clear();
             m_has_grabbed = false;
         }
-        m_stroke.press();
+        m_stroke.press(m_pointer);
     }
 }
 
@@ -62,41 +69,90 @@ void Editor::perform(Action action)
     case Action::LargerBrush:
         state.radius = std::min(state.radius + 1, static_cast<int>(gpu::kBrushRadiusMax));
         break;
+    case Action::TakeColor:
+        m_color_at = m_pointer;
+        break;
     default:
         break;
     }
 }
 
-void Editor::found(std::uint64_t probe, const gpu::PixelReport& report, World& world)
+EditorLooks Editor::takeLooks()
 {
-    const bool has_voxel = report.hit != 0 && report.level == world.scene.tree().grid.nodeLevels();
-    if (m_stroke.found(probe, has_voxel))
+    return {std::exchange(m_color_at, std::nullopt), m_stroke.takePoints()};
+}
+
+void Editor::found(const gpu::PixelReport* color, std::span<const gpu::PixelReport> stroke, World& world)
+{
+    if (color != nullptr)
     {
-        const glm::ivec3 voxel(report.cell);
-        if (m_used.tool == Tool::Brush)
-        {
-            world.scene.request(m_used.brushAt(voxel));
-        }
-        else if (m_stroke.isDown())
-        {
-            grab(voxel, world);
-        }
+        takeColor(*color);
     }
+    paint(stroke, world);
     if (m_stroke.takeEnd())
     {
         finishStroke(world);
     }
 }
 
+void Editor::paint(std::span<const gpu::PixelReport> reports, World& world)
+{
+    const Grid& grid = world.scene.tree().grid;
+    for (const gpu::PixelReport& report : reports)
+    {
+        const bool is_voxel = report.hit != 0 && report.level == grid.nodeLevels();
+        const std::optional<glm::ivec3> center = is_voxel ? dabCenter(report, grid) : std::nullopt;
+        const DabSpacing spacing = center ? spacingAt(*center, grid) : DabSpacing{};
+        for (const glm::ivec3& dab : m_stroke.found({&center, 1}, spacing))
+        {
+            if (m_used.tool == Tool::Brush)
+            {
+                m_dabs.push_back(dab);
+                world.scene.request(m_used.brushAt(dab));
+            }
+            else if (m_stroke.isDown())
+            {
+                grab(report, world);
+            }
+        }
+    }
+}
+
+// Where a dab at a voxel has its centre. A brush that fills builds on the face, and not on what its stroke has built,
+// or else it would grow towards the camera.
+std::optional<glm::ivec3> Editor::dabCenter(const gpu::PixelReport& report, const Grid& grid) const
+{
+    const glm::ivec3 voxel(report.cell);
+    if (m_used.tool != Tool::Brush || m_used.action != BrushAction::Fill)
+    {
+        return voxel;
+    }
+    const bool is_built =
+        std::ranges::any_of(m_dabs, [&](const glm::ivec3& dab) { return m_used.brushAt(dab).covers(voxel); });
+    return is_built ? m_stroke.lastDab() : voxel + stepAcross(m_camera, grid, voxel, report.face);
+}
+
+// The step is half the radius. As far as a few points of the stroke see at the voxel's distance, it is joined to the
+// one before; a picture of a low resolution has the same voxel at several points.
+DabSpacing Editor::spacingAt(const glm::ivec3& voxel, const Grid& grid) const
+{
+    constexpr double kJoinedUnits = 24; // of the window
+    const double depth = glm::dot(voxelCenter(grid, voxel) - m_camera.position, m_camera.forward);
+    const double half_height =
+        m_camera.orthographic ? m_camera.half_height : depth * std::tan(0.5 * m_camera.vertical_fov);
+    const double voxels_a_unit = 2 * half_height / m_size.y / double{grid.voxel_size};
+    const auto radius = static_cast<double>(m_used.radius);
+    return {std::max(0.5 * radius, 1.0), 4 * radius + 2 + kJoinedUnits * voxels_a_unit};
+}
+
 // Chooses the dynamic object by the point at which the button was pressed.
-void Editor::grab(const glm::ivec3& voxel, World& world)
+void Editor::grab(const gpu::PixelReport& report, World& world)
 {
     if (std::exchange(m_has_grabbed, true))
     {
         return;
     }
-    const Grid& grid = world.scene.tree().grid;
-    const glm::dvec3 point = glm::dvec3(grid.origin) + (glm::dvec3(voxel) + 0.5) * static_cast<double>(grid.voxel_size);
+    const glm::dvec3 point = voxelCenter(world.scene.tree().grid, glm::ivec3(report.cell));
     if (const std::optional<std::size_t> object = world.objectAt(point))
     {
         m_drag = {*object, point, world.scene.offset(*object)};
@@ -141,6 +197,7 @@ void Editor::drag(World& world)
 void Editor::release()
 {
     m_stroke = {};
+    m_color_at.reset();
     m_behind.clear();
     m_drag.reset();
 }

@@ -11,10 +11,20 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
 namespace zvo::demo
 {
+
+/// Points of the window, in its units, at which a frame looks for tools.
+struct EditorLooks
+{
+    std::optional<glm::dvec2> color; // where the brush's colour is taken
+    std::vector<glm::dvec2> stroke;
+
+    [[nodiscard]] bool empty() const { return !color && stroke.empty(); }
+};
 
 /// The tools under the left mouse button: the brush, and the hand that drags dynamic objects. What is under the pointer
 /// becomes known to them only some frames later; still, strokes and other edits happen in the order of the events.
@@ -32,21 +42,18 @@ public:
     /// Performs the action of a key for tools.
     void perform(Action action);
 
-    /// Whether a tool needs to know what is under the pointer; and the number of that request, for the next frame.
-    [[nodiscard]] bool wantsPixel() const { return m_stroke.isActive(); }
-    [[nodiscard]] std::uint64_t probe() const { return m_stroke.probe(); }
+    /// Takes the points at which the next frame is to look.
+    EditorLooks takeLooks();
 
-    /// Takes the answer to the request with this number.
-    void found(std::uint64_t probe, const gpu::PixelReport& report, World& world);
+    /// Takes the answers to the oldest looks that have none yet. color: null if none was asked for. stroke: one a
+    /// point; hit is 0 where there is no pixel.
+    void found(const gpu::PixelReport* color, std::span<const gpu::PixelReport> stroke, World& world);
 
     /// Queues an edit behind the stroke that is under way.
     void request(const EditRequest& request, World& world);
 
     /// Ends everything that is under way, because the world was replaced.
     void release();
-
-    /// Sets the brush's colour to that of a pixel.
-    void takeColor(const gpu::PixelReport& report);
 
 private:
     struct Drag
@@ -56,18 +63,24 @@ private:
         glm::dvec3 offset;  // of the dynamic object then
     };
 
-    void grab(const glm::ivec3& voxel, World& world);
+    [[nodiscard]] std::optional<glm::ivec3> dabCenter(const gpu::PixelReport& report, const Grid& grid) const;
+    [[nodiscard]] DabSpacing spacingAt(const glm::ivec3& voxel, const Grid& grid) const;
+    void paint(std::span<const gpu::PixelReport> reports, World& world);
+    void takeColor(const gpu::PixelReport& report);
+    void grab(const gpu::PixelReport& report, World& world);
     void drag(World& world);
     void finishStroke(World& world);
 
     Stroke m_stroke;
     ToolState m_used;                  // for the stroke that is under way, whatever is chosen since it began
+    std::vector<glm::ivec3> m_dabs;    // centres of the stroke
     bool m_has_grabbed = false;        // in the stroke, maybe nothing
     std::vector<EditRequest> m_behind; // the stroke
     std::optional<Drag> m_drag;
     ViewCamera m_camera;
     glm::dvec2 m_size{1.0};
     glm::dvec2 m_pointer{0.0};
+    std::optional<glm::dvec2> m_color_at; // where the brush's colour is to be taken
 };
 
 } // namespace zvo::demo

@@ -7,6 +7,7 @@
 
 #include <cstdint>
 #include <string>
+#include <utility>
 #include <vector>
 
 struct GLFWwindow;
@@ -55,7 +56,7 @@ public:
     void setClipboard(const std::string& text);
 
     /// Callbacks of the window system put events here.
-    void note(InputEvent event) { m_events.push_back(std::move(event)); }
+    template <typename Event> void note(Event event) { m_events.emplace_back(std::move(event)); }
     void noteMinimized(bool minimized) { m_is_minimized = minimized; }
 
 private:

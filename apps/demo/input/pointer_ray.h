@@ -4,6 +4,7 @@
 #include "core/scene/camera.h"
 
 #include <cmath>
+#include <optional>
 
 namespace zvo::demo
 {
@@ -24,6 +25,20 @@ inline PointerRay pointerRay(const ViewCamera& camera, const glm::dvec2& at, con
     const glm::dvec3 offset = half_height * (from_center.x * camera.right - from_center.y * camera.up);
     return camera.orthographic ? PointerRay{camera.position + offset, camera.forward}
                                : PointerRay{camera.position, camera.forward + offset};
+}
+
+/// The point of the window at which a camera sees a point, as pointerRay() takes it. Nothing behind the camera.
+inline std::optional<glm::dvec2> pointOf(const ViewCamera& camera, const glm::dvec3& point, const glm::dvec2& size)
+{
+    const glm::dvec3 away = point - camera.position;
+    const double depth = glm::dot(away, camera.forward);
+    const double half_height = camera.orthographic ? camera.half_height : depth * std::tan(0.5 * camera.vertical_fov);
+    if (!(depth > 0) || !(half_height > 0))
+    {
+        return std::nullopt;
+    }
+    const glm::dvec2 from_center = {glm::dot(away, camera.right), -glm::dot(away, camera.up)};
+    return 0.5 * (size + size.y / half_height * from_center);
 }
 
 /// The point of a ray on the plane through `through` that faces the camera.

@@ -59,18 +59,13 @@ void Renderer::record(vk::FrameGraph& graph, const DeviceTree& tree, const Pictu
         m_renderer.cache().noteChange();
     }
     m_renderer.render(graph, subject, m_options, picture.ray_lists);
-    if (picture.inspected && integrator() != Integrator::Primary)
+    if (picture.probe != nullptr && integrator() != Integrator::Primary)
     {
         m_renderer.traceHits(graph, subject, m_options);
     }
-    if (picture.inspected)
+    if (picture.probe != nullptr)
     {
-        // The traced pixel that is shown at a pixel (scalePicture()).
-        const auto tracedPixel = [](std::uint32_t at, std::uint32_t shown, std::uint32_t traced)
-        { return (2 * at + 1) * traced / (2 * shown); };
-        const glm::uvec2 pixel = {tracedPixel(picture.inspected->x, picture.window.width, buffers.width),
-                                  tracedPixel(picture.inspected->y, picture.window.height, buffers.height)};
-        inspectPixel(graph, tree, camera, options, buffers, pixel, *picture.report);
+        picture.probe->record(graph, tree, camera, options, buffers, picture.window);
     }
     m_compose->fill(graph, buffers.image, {buffers.width, buffers.height});
     if (picture.screenshot != nullptr && !picture.screenshot_has_panels)
@@ -89,7 +84,7 @@ void Renderer::record(vk::FrameGraph& graph, const DeviceTree& tree, const Pictu
     {
         m_compose->show(graph, *picture.target);
     }
-    if (picture.screenshot != nullptr || picture.inspected || picture.ray_lists != nullptr)
+    if (picture.screenshot != nullptr || picture.probe != nullptr || picture.ray_lists != nullptr)
     {
         graph.releaseToHost();
     }

@@ -4,6 +4,7 @@
 #include "core/frame/frame_renderer.h"
 #include "core/present/present.h"
 #include "demo/world/compose.h"
+#include "demo/world/pixel_probe.h"
 #include "vk/deletion_queue.h"
 #include "vk/headless.h"
 #include "vk/swapchain.h"
@@ -27,8 +28,7 @@ struct Picture
     const vk::SwapchainImage* target = nullptr;    // null: the picture is not shown
     vk::BufferOf<gpu::uint>* screenshot = nullptr; // gets the window's pixels; may be null
     bool screenshot_has_panels = true;
-    std::optional<glm::uvec2> inspected;              // pixel of the window
-    vk::BufferOf<gpu::PixelReport>* report = nullptr; // gets the result for that pixel
+    PixelProbe* probe = nullptr; // finds what the rays of single pixels meet; may be null
     /// Gets what tells how many rays the paths have (rayCountOf()), [Renderer::rayListElements()]; may be null.
     vk::BufferOf<gpu::DispatchArgs>* ray_lists = nullptr;
     bool edited = false; // brushes have changed voxels in this frame

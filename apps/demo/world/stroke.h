@@ -1,43 +1,70 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <cstdint>
+#include <cstddef>
+#include <deque>
 #include <glm/glm.hpp>
 #include <optional>
+#include <span>
+#include <vector>
 
 namespace zvo::demo
 {
 
-/// A stroke under the mouse button: decides which of the voxels that were found under the pointer become dabs. What is
-/// under the pointer is known only some frames after it was asked for, so each such request, a probe, has a number.
+/// How close together the dabs of a stroke are, in voxels.
+struct DabSpacing
+{
+    double step = 1;  // between dabs
+    double reach = 4; // voxels that were found one after the other and are farther apart are not joined
+};
+
+/// A stroke under the mouse button: decides at which points of the window to look, and which voxels that are found
+/// there become dabs. Between two positions of the pointer there is a point every kLookStep units, and between two
+/// voxels that are found there are dabs in space. So a stroke has no gaps, however fast the pointer moves. What is at
+/// the points is known only some frames after it was asked for, in the same order.
 class Stroke
 {
 public:
-    /// The button was pressed, or released. A press continues a stroke that still waits for voxels.
-    void press();
+    static constexpr double kLookStep = 2;        // of the window's units
+    static constexpr std::size_t kLooksMax = 256; // in a frame
+
+    /// The button was pressed. A press continues a stroke that still waits for voxels, but is not joined to it.
+    void press(const glm::dvec2& at);
     void release() { m_is_down = false; }
 
-    /// The pointer moved.
-    void move();
-
-    /// The number of the request for what is under the pointer now.
-    [[nodiscard]] std::uint64_t probe() const { return m_probe; }
+    /// The pointer has moved.
+    void move(const glm::dvec2& at);
 
     [[nodiscard]] bool isDown() const { return m_is_down; }
 
     /// Whether the stroke waits for voxels.
     [[nodiscard]] bool isActive() const { return m_is_stroke; }
 
-    /// Takes the result of a probe: a voxel, or nothing. Returns whether it becomes a dab; results of older pointer
-    /// positions do not.
-    bool found(std::uint64_t probe, bool has_voxel);
+    /// Takes the points to look at next, at most kLooksMax.
+    std::vector<glm::dvec2> takePoints();
+
+    /// Takes what is at the oldest points that have no answer yet: voxels, or nothing. Returns the centres of dabs.
+    std::vector<glm::ivec3> found(std::span<const std::optional<glm::ivec3>> voxels, const DabSpacing& spacing);
+
+    /// The centre of the last dab, to which the next one is joined.
+    [[nodiscard]] const std::optional<glm::ivec3>& lastDab() const { return m_last_dab; }
 
     /// Whether the stroke has just ended; true once.
     bool takeEnd();
 
 private:
-    std::uint64_t m_probe = 0;
-    std::uint64_t m_answered = 0; // the last probe of the stroke that found something or nothing
+    struct Point
+    {
+        glm::dvec2 at;
+        bool is_press; // and not joined to the point before it
+    };
+
+    void join(const glm::ivec3& voxel, const DabSpacing& spacing, std::vector<glm::ivec3>& dabs);
+
+    std::deque<Point> m_points; // to look at
+    std::deque<bool> m_awaited; // of points without an answer: Point::is_press
+    glm::dvec2 m_pointer{0.0};  // of the last point
+    std::optional<glm::ivec3> m_last_dab;
     bool m_is_down = false;
     bool m_is_stroke = false;
 };

@@ -25,6 +25,15 @@ struct Brush
     std::uint32_t color = 0;  // Fill, Paint: sRGB red | green << 8 | blue << 16
 
     bool operator==(const Brush&) const = default;
+
+    /// Whether a voxel is under the brush.
+    [[nodiscard]] bool covers(const gpu::ivec3& voxel) const
+    {
+        const gpu::ivec3 away = glm::abs(voxel - center);
+        const auto reach = static_cast<int>(radius);
+        const bool is_in_sphere = away.x * away.x + away.y * away.y + away.z * away.z <= reach * (reach + 1);
+        return glm::max(away.x, glm::max(away.y, away.z)) <= reach && (shape == BrushShape::Box || is_in_sphere);
+    }
 };
 
 } // namespace zvo

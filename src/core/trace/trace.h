@@ -113,11 +113,13 @@ struct TexelTarget
 void shade(vk::FrameGraph& graph, const DeviceTree& tree, const TraceCamera& camera, const TraceOptions& options,
            const TraceBuffers& buffers, const TexelTarget& target);
 
-/// Records the pass that reports what the ray of a pixel meets. To be recorded after trace() of the same tree with the
-/// same camera, options and buffers. report: [1]. Where the tree has no attributes or options show none, report.look is
-/// 0 and, in a DAG, report.index is undefined. Cost: one ray.
-void inspectPixel(vk::FrameGraph& graph, const DeviceTree& tree, const TraceCamera& camera, const TraceOptions& options,
-                  const TraceBuffers& buffers, glm::uvec2 pixel, vk::BufferOf<gpu::PixelReport>& report);
+/// Records the pass that reports what the rays of single pixels meet. To be recorded after trace() of the same tree
+/// with the same camera, options and buffers. pixels: [count], at least one, row by row. reports: [count]. Where the
+/// tree has no attributes or options show none, PixelReport::look is 0 and, in a DAG, PixelReport::index is undefined.
+/// Cost: a ray a pixel.
+void inspectPixels(vk::FrameGraph& graph, const DeviceTree& tree, const TraceCamera& camera,
+                   const TraceOptions& options, const TraceBuffers& buffers, const vk::BufferOf<gpu::uint>& pixels,
+                   vk::BufferOf<gpu::PixelReport>& reports);
 
 /// Records all passes from a camera to buffers.image: tracePrimary(), traceLight() where needed, shade().
 void trace(vk::FrameGraph& graph, const DeviceTree& tree, const NodePaths& paths, const TraceCamera& camera,

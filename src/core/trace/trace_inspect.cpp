@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: MIT
-// Reports what one pixel's ray meets.
+// Reports what the rays of single pixels meet.
 #include "core/trace/trace_passes.h"
 
 namespace zvo
 {
 
-void inspectPixel(vk::FrameGraph& graph, const DeviceTree& tree, const TraceCamera& camera, const TraceOptions& options,
-                  const TraceBuffers& buffers, glm::uvec2 pixel, vk::BufferOf<gpu::PixelReport>& report)
+void inspectPixels(vk::FrameGraph& graph, const DeviceTree& tree, const TraceCamera& camera,
+                   const TraceOptions& options, const TraceBuffers& buffers, const vk::BufferOf<gpu::uint>& pixels,
+                   vk::BufferOf<gpu::PixelReport>& reports)
 {
     if (isEmpty(tree))
     {
-        graph.fill(report, 0);
+        graph.fill(reports, 0);
         return;
     }
     const AttributeFormat format = showsAttributes(options) ? formatToRead(tree, options) : AttributeFormat::None;
@@ -20,13 +21,14 @@ void inspectPixel(vk::FrameGraph& graph, const DeviceTree& tree, const TraceCame
     params.nodes = pass.read(tree.nodes);
     params.hits = pass.read(buffers.hits);
     readAttributes(pass, tree, params);
-    params.report = pass.write(report);
+    params.pixels = pass.read(pixels);
+    params.reports = pass.write(reports);
     params.camera = camera.rays;
     params.width = buffers.width;
     params.height = buffers.height;
-    params.pixel = pixel.y * buffers.width + pixel.x;
+    params.count = static_cast<std::uint32_t>(pixels.count());
     params.detail = detailOf(options, &camera);
-    pass.dispatch(1, params);
+    pass.dispatch(pixels.count(), params);
 }
 
 } // namespace zvo
