@@ -109,6 +109,9 @@ public:
     /// Queues a request for the next updates, which carry requests out in order. Only for scenes that can be edited.
     void request(const EditRequest& request) { m_requests.push_back(request); }
 
+    /// Whether requests wait for the next update.
+    [[nodiscard]] bool hasRequests() const { return !m_requests.empty(); }
+
     /// The edits: which strokes can be undone, and how much memory they hold. Null if the scene cannot be edited.
     [[nodiscard]] const Edits* edits() const { return m_dynamic ? &m_dynamic->edits() : nullptr; }
 

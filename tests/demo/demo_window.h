@@ -116,8 +116,8 @@ protected:
     [[nodiscard]] std::string render(const std::string& arguments) const
     {
         const auto given = [&](std::string_view option) { return arguments.find(option) != std::string::npos; };
-        const bool is_lit = !given("--integrator") && !given("--view");
-        run("render -o rendered.png -f " + arguments + (is_lit ? " --spp 1" : "") +
+        const bool is_lit = !given("--integrator") && (!given("--view") || given("--view color"));
+        run("render -o rendered.png -f " + arguments + (is_lit && !given("--spp") ? " --spp 1" : "") +
             (is_lit && !given("--occlusion") ? " --occlusion 0" : ""));
         return file("rendered.png");
     }

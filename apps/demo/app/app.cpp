@@ -76,16 +76,14 @@ App::App(const DemoOptions& options, Clock::time_point start)
       m_stats_output(outputTo(options.json, options.overwrite)),
       m_record_output(options.record_input ? outputTo(options.record_input->string(), options.overwrite) : nullptr),
       m_world_options{options.voxels, options.structure, options.frames_in_flight},
-      m_first_input(std::async(std::launch::async, [wanted = m_world_options] { return World::read(wanted); })),
+      m_loading(options.voxels.scenes.empty() ? nullptr : std::make_unique<Loading>(m_world_options)),
       m_window(options.size.value_or(m_settings.window), "zvo"),
       m_device(deviceOptions(options, m_window), zvoKernels()),
       m_swapchain(m_device, [this](VkInstance instance) { return m_window.makeSurface(instance); },
                   {m_view.present_mode, options.frames_in_flight}),
       m_compose_pass(m_device.device()), m_ui(m_device, m_compose_pass, m_window, options.frames_in_flight),
-      m_world(World::make(m_device, m_world_options, m_first_input.get())), m_renderer(m_device, m_compose_pass),
-      m_timeline(options.fixed_step),
-      m_camera(cli::chooseCamera(options.camera, m_world->scene.animated(), m_world->subject, aspect()),
-               m_world->subject),
+      m_world(World::make(m_device, WorldOptions{}, {})), m_renderer(m_device, m_compose_pass),
+      m_timeline(options.fixed_step), m_camera(ViewCamera::framing(m_world->subject, aspect()), m_world->subject),
       m_flight(options.fixed_step), m_shaders(options.shaders ? *options.shaders : shadersOf(thisProgram())),
       m_frame_start(Clock::now())
 {
@@ -110,6 +108,7 @@ App::App(const DemoOptions& options, Clock::time_point start)
             m_told.emplace_back(text);
         });
     showTitle();
+    beginFirstWorld();
 }
 
 App::~App()
@@ -147,36 +146,59 @@ void App::run()
 void App::tick()
 {
     frame();
+    countFrame();
+}
+
+void App::countFrame()
+{
     ++m_frame;
     m_quits = m_quits || (m_options.frame_count && m_frame >= *m_options.frame_count);
 }
 
 void App::frame()
 {
-    const Clock::time_point now = Clock::now();
-    const std::chrono::duration<double> passed = now - m_frame_start;
-    m_frame_start = now;
-    m_frame_seconds =
-        m_options.fixed_step ? m_options.fixed_step->seconds() : std::min(passed.count(), kFrameSecondsMax);
-    if (m_frame != 0)
+    beginFrame(restSeconds());
+    if (m_frame != 0 && !m_is_refined)
     {
-        m_stats.addFrame(Milliseconds(passed).count());
+        m_stats.addFrame(Milliseconds(m_passed).count());
     }
-    takeInput();
-    while (m_frames_in_flight.size() >= m_options.frames_in_flight)
+    while (m_frames_in_flight.size() >= framesInFlight())
     {
         finishOldest();
+    }
+    for (const std::function<void()>& action : std::exchange(m_when_free, {}))
+    {
+        action();
     }
     advanceTime();
     buildPanels();
     draw();
 }
 
-void App::takeInput()
+// rest_seconds: how long nothing happens without input.
+void App::beginFrame(double rest_seconds)
+{
+    takeInput(rest_seconds);
+    const Clock::time_point now = Clock::now();
+    m_passed = now - m_frame_start;
+    m_frame_start = now;
+    m_frame_seconds =
+        m_options.fixed_step ? m_options.fixed_step->seconds() : std::min(m_passed.count(), kFrameSecondsMax);
+    m_since_redraw += m_frame_seconds;
+}
+
+// Frames that may be under way. A software device gains nothing from several, and each is another one between the
+// user's input and its effect.
+std::size_t App::framesInFlight() const
+{
+    return m_ladder ? 1 : m_options.frames_in_flight;
+}
+
+void App::takeInput(double rest_seconds)
 {
     const PictureSize size = m_window.framebufferSize();
     const bool idles = !m_replay && (size.width == 0 || size.height == 0);
-    const std::vector<InputEvent> users = m_window.takeEvents(idles ? kIdleSeconds : 0.0);
+    const std::vector<InputEvent> users = m_window.takeEvents(idles ? kIdleSeconds : rest_seconds);
     // While a script is played, only the user's request to close the window counts.
     for (const InputEvent& event : users)
     {
@@ -209,11 +231,11 @@ void App::apply(const InputEvent& event)
     {
         m_recorded.push_back({m_frame, event});
     }
-    if (const auto* const move = std::get_if<MouseMoveEvent>(&event))
-    {
-        m_mouse = *move;
-    }
-    const bool is_the_panels = m_ui.handle(event); // the panels see events even while they are hidden
+    noteRedraw();
+    const auto* const move = std::get_if<MouseMoveEvent>(&event);
+    m_mouse = move != nullptr ? *move : m_mouse;
+    m_refinement.noteInput(move != nullptr && m_editor.hasButton()); // a tool follows the pointer
+    const bool is_the_panels = m_ui.handle(event);                   // the panels see events even while they are hidden
     if (m_panels.shows_panels && is_the_panels)
     {
         return;
@@ -264,6 +286,11 @@ void App::buildPanels()
     m_ui.build(size, m_window.framebufferSize(), m_frame_seconds,
                [this]
                {
+                   if (m_is_first_world)
+                   {
+                       m_has_overlay = true;
+                       return loadingPanel(m_world_options, *m_loading);
+                   }
                    m_has_overlay = drawOverlay();
                    if (!m_panels.shows_panels)
                    {
@@ -274,8 +301,8 @@ void App::buildPanels()
                        scenePanel(*m_world, m_timeline);
                        buildPanel();
                        toolsPanel();
-                       viewPanel(m_view, {internalScale(), m_swapchain.mode(), m_camera.speed(),
-                                          m_renderer.sampleCount(), m_renderer.cacheFrames(), RadianceOptions().faces});
+                       viewPanel(m_view, {internalScale(), m_swapchain.mode(), m_camera.speed(), shownSamples(),
+                                          m_renderer.cacheFrames(), RadianceOptions().faces});
                        ImGui::TextUnformatted("F1: keys");
                    }
                    ImGui::End();
@@ -318,6 +345,13 @@ double App::aspect() const
 {
     const PictureSize size = m_window.size();
     return size.width != 0 && size.height != 0 ? static_cast<double>(size.width) / size.height : 1.0;
+}
+
+// Of each pixel of the picture, where it has several.
+std::optional<std::uint32_t> App::shownSamples() const
+{
+    const bool has_samples = m_is_refined ? m_refined.options.hasSamples() : m_view.frame.hasSamples();
+    return has_samples ? std::optional(m_renderer.sampleCount()) : std::nullopt;
 }
 
 double App::internalScale() const

@@ -19,6 +19,7 @@
 #include "demo/panels/panels.h"
 #include "demo/world/compose.h"
 #include "demo/world/loading.h"
+#include "demo/world/refinement.h"
 #include "demo/world/renderer.h"
 #include "demo/world/resolution_ladder.h"
 #include "demo/world/view_state.h"
@@ -30,11 +31,12 @@
 #include <chrono>
 #include <deque>
 #include <filesystem>
-#include <future>
+#include <functional>
 #include <memory>
 #include <mutex>
 #include <optional>
 #include <string>
+#include <tuple>
 #include <vector>
 
 namespace zvo::demo
@@ -74,8 +76,8 @@ private:
     // A frame that is under way on the device.
     struct FrameInFlight
     {
-        std::uint64_t number = 0;      // this program's number
-        std::uint64_t world_frame = 0; // the world's number
+        std::uint64_t number = 0;                 // this program's number
+        std::optional<std::uint64_t> world_frame; // the world's number; nothing: the frame shows an earlier picture
         double internal_scale = 1;
         std::uint64_t primary_ray_count = 0;
         Integrator integrator = Integrator::Primary;
@@ -98,7 +100,9 @@ private:
 
     void tick();
     void frame();
-    void takeInput();
+    void beginFrame(double rest_seconds);
+    void countFrame();
+    void takeInput(double rest_seconds);
     void apply(const InputEvent& event);
     void onKey(const KeyEvent& event);
     void perform(const KeyBinding& binding, Key key);
@@ -109,19 +113,44 @@ private:
     void buildPanel();
     void toolsPanel();
     void draw();
+    void drawLive();
+    void drawKept();
     bool prepare(const Picture& picture);
-    void submit(Picture& picture, FrameInFlight frame);
+    void present(FrameInFlight frame, const std::function<void(vk::FrameGraph&)>& trace);
+    Picture pictureIn(PictureSize traced);
+    Composition composition();
+    void measure(bool still);
+
+    void drawStill();
+    bool beginStill();
+    void addSample();
+    void develop();
+    void inspectStill();
+    void frameWithin();
+    void abandonIfChanged();
+    void whenFree(std::function<void()> action);
+    void noteRedraw();
+    [[nodiscard]] PictureState pictureState() const;
+    [[nodiscard]] bool moves() const;
+    [[nodiscard]] bool isRefinedEnough() const;
+    [[nodiscard]] double restSeconds() const;
+    [[nodiscard]] std::size_t framesInFlight() const;
+
     void finishOldest();
     FrameLooks takeLooks();
     void answer(const FrameLooks& looks);
     void keep(const FrameInFlight& frame);
     void finishAll();
     std::unique_ptr<Screenshot> takeScreenshot(PictureSize size);
+    [[nodiscard]] bool isLastPicture() const;
+    [[nodiscard]] bool wantsScreenshot() const;
 
     void loadFiles(const std::vector<std::filesystem::path>& files);
+    void beginFirstWorld();
     void beginLoading(WorldOptions options);
     void continueLoading();
     void loadAtOnce(const WorldOptions& options);
+    void showFirst(std::unique_ptr<World> world);
     void show(std::unique_ptr<World> world, const WorldOptions& options);
     void request(const EditRequest& request);
     bool isMakingAWorld();
@@ -141,6 +170,7 @@ private:
     [[nodiscard]] std::optional<glm::uvec2> pixelAt(const glm::dvec2& point) const;
     [[nodiscard]] double aspect() const;
     [[nodiscard]] double internalScale() const;
+    [[nodiscard]] std::optional<std::uint32_t> shownSamples() const;
     [[nodiscard]] double worldSeconds() const;
     MemoryUse memoryUse();
     void note(const std::string& text);
@@ -156,15 +186,15 @@ private:
     std::unique_ptr<cli::Output> m_record_output;
     std::optional<InputReplay> m_replay;
 
-    WorldOptions m_world_options;          // of m_world
-    std::future<WorldInput> m_first_input; // is read while the window opens
+    WorldOptions m_world_options; // of m_world
+    std::unique_ptr<Loading>
+        m_loading; // null: nothing is being loaded. The first files are read while the window opens
     Window m_window;
     vk::HeadlessDevice m_device;
     vk::Swapchain m_swapchain;
     ComposePass m_compose_pass;
     Ui m_ui;
     std::unique_ptr<World> m_world;
-    std::unique_ptr<Loading> m_loading;       // null: nothing is being loaded
     std::optional<WorldOptions> m_loads_next; // when what is being loaded has been cancelled
     Renderer m_renderer;
     std::deque<FrameInFlight> m_frames_in_flight;
@@ -189,10 +219,25 @@ private:
     std::uint64_t m_frame = 0;       // of the loop
     std::uint64_t m_drawn_count = 0; // frames that were drawn
     Clock::time_point m_frame_start;
-    double m_frame_seconds = 0; // that this frame takes
+    std::chrono::duration<double> m_passed{0}; // since the frame before
+    double m_frame_seconds = 0;                // that this frame takes
     std::optional<double> m_first_frame_ms;
     bool m_has_overlay = false;  // over the picture, whether or not panels are shown
     bool m_lacks_memory = false; // for a picture of the window's size
+
+    Refinement m_refinement;
+    Picture m_refined;                                  // the still picture
+    FrameOptions m_developed;                           // of the samples that are shown
+    std::uint32_t m_shown_from = 1;                     // samples of the still picture with which it is shown
+    bool m_is_refined = false;                          // m_refined is being made, and the last kept picture is shown
+    bool m_has_samples = false;                         // of m_refined
+    bool m_is_within = false;                           // a sample
+    bool m_makes_world = false;                         // the device is making a world
+    bool m_is_first_world = false;                      // that is loaded has not been shown yet
+    int m_redraws = 0;                                  // frames in which panels are drawn anew
+    double m_since_redraw = 0;                          // seconds
+    std::vector<std::function<void()>> m_when_free;     // what waits for the end of a sample
+    std::tuple<Integrator, View, bool> m_measured = {}; // what m_stats are about
     bool m_quits = false;
 };
 

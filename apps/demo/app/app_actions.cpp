@@ -66,7 +66,7 @@ void App::perform(const KeyBinding& binding, Key key)
     case Action::NextFrame:
         return m_timeline.nextFrame(m_world->scene.animated());
     case Action::ReloadShaders:
-        return reloadChangedShaders();
+        return whenFree([this] { reloadChangedShaders(); });
     case Action::Screenshot:
         m_wanted_screenshot = true;
         return;
@@ -86,7 +86,7 @@ void App::perform(const KeyBinding& binding, Key key)
     case Action::Redo:
         return request(RedoStroke{});
     case Action::Save:
-        return save();
+        return whenFree([this] { save(); });
     case Action::Quit:
         m_quits = true;
         return;

@@ -21,10 +21,20 @@ using Milliseconds = std::chrono::duration<double, std::milli>;
 
 } // namespace
 
+// Whether the frame is the last one, of which the command line wants a screenshot.
+bool App::isLastPicture() const
+{
+    return m_options.frame_count && m_frame + 1 == *m_options.frame_count && m_screenshot_output != nullptr;
+}
+
+bool App::wantsScreenshot() const
+{
+    return m_wanted_screenshot || isLastPicture();
+}
+
 std::unique_ptr<Screenshot> App::takeScreenshot(PictureSize size)
 {
-    const bool is_last = m_options.frame_count && m_frame + 1 == *m_options.frame_count;
-    if (is_last && m_screenshot_output != nullptr)
+    if (isLastPicture())
     {
         return std::make_unique<Screenshot>(m_device.device(), size, std::move(m_screenshot_output), true);
     }
@@ -39,34 +49,61 @@ void App::draw()
     {
         return;
     }
+    if (m_is_first_world)
+    {
+        return drawKept();
+    }
     if (m_options.fixed_step)
     {
         // Waits, so that this frame does not depend on which frames the device has completed.
         finishAll();
         m_world->scene.settle(worldSeconds());
+        return drawLive();
     }
+    m_refinement.show(pictureState(), moves(), m_frame_seconds);
+    if (!m_refinement.isStill())
+    {
+        drawLive();
+    }
+    else if (!m_makes_world)
+    {
+        drawStill();
+    }
+    else if (m_is_refined)
+    {
+        drawKept();
+    }
+    else
+    {
+        drawLive();
+    }
+}
+
+Picture App::pictureIn(PictureSize traced)
+{
     Picture picture;
     picture.camera = m_camera.camera();
     picture.options = m_view.frame;
-    picture.window = size;
-    picture.internal = scaledSize(size, internalScale());
+    if (!m_options.fixed_step)
+    {
+        // So that denoising can begin and end without other samples.
+        picture.options.path.features = true;
+        picture.options.path.reseeds = true;
+    }
+    picture.size = traced;
+    picture.window = m_window.framebufferSize();
+    return picture;
+}
+
+// A frame that traces the picture.
+void App::drawLive()
+{
+    Picture picture = pictureIn(scaledSize(m_window.framebufferSize(), internalScale()));
     if (!prepare(picture))
     {
         return;
     }
-    if (m_panels.shows_panels || m_has_overlay)
-    {
-        picture.panels = [this](VkCommandBuffer commands) { m_ui.draw(commands); };
-    }
     FrameInFlight frame;
-    frame.is_last_picture = m_screenshot_output != nullptr;
-    frame.screenshot = takeScreenshot(size);
-    frame.is_last_picture = frame.is_last_picture && m_screenshot_output == nullptr;
-    if (frame.screenshot != nullptr)
-    {
-        picture.screenshot = &frame.screenshot->pixels();
-        picture.screenshot_has_panels = frame.screenshot->hasPanels() && m_panels.shows_panels;
-    }
     frame.looks = takeLooks();
     picture.probe = frame.looks.probe.get();
     if (const std::uint64_t elements = m_renderer.rayListElements(); elements != 0)
@@ -75,10 +112,87 @@ void App::draw()
                                                                             vk::MemoryKind::Readback);
         picture.ray_lists = frame.ray_lists.get();
     }
+    frame.internal_scale = internalScale();
+    frame.primary_ray_count = m_renderer.rayCount();
+    frame.integrator = m_renderer.integrator();
+    m_is_refined = false;
+    m_renderer.showTraced();
+    measure(false);
+    const auto trace = [&](vk::FrameGraph& graph)
+    {
+        m_world->scene.update(graph, worldSeconds());
+        picture.edited = m_world->scene.isEdited();
+        m_renderer.recordPicture(graph, m_world->scene.tree(), picture);
+    };
+    frame.world_frame = m_world->scene.beginFrame();
+    try
+    {
+        present(std::move(frame), trace);
+    }
+    catch (...)
+    {
+        m_world->scene.frameLost();
+        m_renderer.forget();
+        throw;
+    }
+}
+
+// A frame that shows the last picture that was kept.
+void App::drawKept()
+{
+    m_renderer.beginFrame(m_drawn_count, composition());
+    present({}, [](vk::FrameGraph&) {});
+}
+
+// What the window shows around a picture, but for what only present() knows.
+Composition App::composition()
+{
+    Composition composition;
+    composition.window = m_window.framebufferSize();
+    composition.encodes_srgb = vk::encodesSrgb(m_swapchain.format());
+    if (m_panels.shows_panels || m_has_overlay)
+    {
+        composition.panels = [this](VkCommandBuffer commands) { m_ui.draw(commands); };
+    }
+    return composition;
+}
+
+// Submits a frame: what `trace` records, and the window's contents. A failure ends the program: the window's image
+// cannot be presented any more.
+void App::present(FrameInFlight frame, const std::function<void(vk::FrameGraph&)>& trace)
+{
+    Composition composition = this->composition();
+    frame.is_last_picture = m_screenshot_output != nullptr;
+    frame.screenshot = takeScreenshot(composition.window);
+    frame.is_last_picture = frame.is_last_picture && m_screenshot_output == nullptr;
+    if (frame.screenshot != nullptr)
+    {
+        composition.screenshot = &frame.screenshot->pixels();
+        composition.screenshot_has_panels = frame.screenshot->hasPanels() && m_panels.shows_panels;
+    }
+    frame.number = m_drawn_count;
     // Nothing that may fail stands between acquiring an image and the submission that waits for it.
-    const std::optional<vk::SwapchainImage> target = m_swapchain.acquire({size.width, size.height}, m_drawn_count);
-    picture.target = target ? &*target : nullptr;
-    submit(picture, std::move(frame));
+    const std::optional<vk::SwapchainImage> target =
+        m_swapchain.acquire({composition.window.width, composition.window.height}, m_drawn_count);
+    composition.target = target ? &*target : nullptr;
+    vk::SubmitSync sync;
+    if (target)
+    {
+        sync = {target->available, VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, target->presentable};
+    }
+    const bool is_read = frame.screenshot != nullptr || frame.looks.probe != nullptr || frame.ray_lists != nullptr;
+    frame.submission = m_device.submit(
+        [&](vk::FrameGraph& graph)
+        {
+            trace(graph);
+            m_renderer.recordFrame(graph, composition);
+            if (is_read)
+            {
+                graph.releaseToHost();
+            }
+        },
+        sync);
+    m_frames_in_flight.push_back(std::move(frame));
     if (target)
     {
         m_swapchain.present(*target);
@@ -91,7 +205,8 @@ bool App::prepare(const Picture& picture)
 {
     try
     {
-        m_renderer.begin(m_drawn_count, m_world->scene.tree(), picture, vk::encodesSrgb(m_swapchain.format()));
+        m_renderer.beginFrame(m_drawn_count, composition());
+        m_renderer.reserve(m_world->scene.tree(), picture);
         m_lacks_memory = false;
         return true;
     }
@@ -115,57 +230,27 @@ bool App::prepare(const Picture& picture)
     }
 }
 
-// Submits the frame of a picture. A failure ends the program: picture.target cannot be presented any more.
-void App::submit(Picture& picture, FrameInFlight frame)
-{
-    frame.number = m_drawn_count;
-    frame.internal_scale = internalScale();
-    frame.primary_ray_count = m_renderer.rayCount();
-    frame.integrator = m_renderer.integrator();
-    frame.world_frame = m_world->scene.beginFrame();
-    vk::SubmitSync sync;
-    if (picture.target != nullptr)
-    {
-        sync = {picture.target->available, VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, picture.target->presentable};
-    }
-    try
-    {
-        frame.submission = m_device.submit(
-            [&](vk::FrameGraph& graph)
-            {
-                m_world->scene.update(graph, worldSeconds());
-                picture.edited = m_world->scene.isEdited();
-                m_renderer.record(graph, m_world->scene.tree(), picture);
-            },
-            sync);
-    }
-    catch (...)
-    {
-        m_world->scene.frameLost();
-        m_renderer.forget();
-        throw;
-    }
-    m_frames_in_flight.push_back(std::move(frame));
-}
-
 void App::finishOldest()
 {
     FrameInFlight frame = std::move(m_frames_in_flight.front());
     m_frames_in_flight.pop_front();
     const std::vector<vk::PassTime> passes = frame.submission.wait();
-    m_world->scene.frameDone(frame.world_frame, passes);
+    if (frame.world_frame)
+    {
+        m_world->scene.frameDone(*frame.world_frame, passes);
+        m_stats.addPasses(passes, frame.rays());
+        if (m_ladder && frame.internal_scale == m_ladder->scale())
+        {
+            m_ladder->add(scalingMs(passes));
+        }
+    }
     m_renderer.frameDone(frame.number);
     m_swapchain.frameDone(frame.number);
-    m_stats.addPasses(passes, frame.rays());
     if (!m_first_frame_ms)
     {
         m_first_frame_ms = Milliseconds(Clock::now() - m_start).count();
     }
     answer(frame.looks);
-    if (m_ladder && frame.internal_scale == m_ladder->scale())
-    {
-        m_ladder->add(m_stats.gpuMs().last());
-    }
     if (frame.screenshot != nullptr)
     {
         keep(frame);
@@ -225,7 +310,7 @@ void App::writeStats()
     json["frame"] = timesOf(m_stats.frameMs());
     json["gpu"] = timesOf(m_stats.gpuMs());
     json["mrays_per_second"] = m_stats.megaraysPerSecond();
-    json["internal_scale"] = internalScale();
+    json["internal_scale"] = m_is_refined ? m_view.internal_scale.value_or(1.0) : internalScale();
     json["swapchains"] = m_swapchain.generation();
     json["passes"] = cli::Json::array();
     for (const std::string& name : m_stats.names())

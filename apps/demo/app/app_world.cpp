@@ -21,8 +21,9 @@ namespace zvo::demo
 namespace
 {
 
-constexpr double kLoadingPieceMs = 30; // work on a world between two frames of another one
-constexpr int kSavedMost = 1000;       // largest number in a file's name
+constexpr double kLoadingPieceMs = 30;           // work on a world between two frames of another one
+constexpr gpu::uint kLoadingColor = 0xFF201C1AU; // of the window, red in the lowest bits
+constexpr int kSavedMost = 1000;                 // largest number in a file's name
 
 // A name in the working folder that no file has yet.
 std::string freeName(const std::string& stem)
@@ -53,6 +54,43 @@ void App::loadFiles(const std::vector<std::filesystem::path>& files)
     options.voxels.bounds.reset();
     options.voxels.grid_position.reset();
     beginLoading(std::move(options));
+}
+
+// Shows the files of the command line. A run that is the same for everyone has them from its first frame on; otherwise
+// frames show how far they are.
+void App::beginFirstWorld()
+{
+    constexpr double kSubmissionMs = 400;
+    m_is_first_world = m_loading != nullptr;
+    const bool at_once = m_options.fixed_step || m_options.frame_count || m_replay;
+    if (m_loading == nullptr)
+    {
+        showFirst(nullptr);
+    }
+    else if (at_once)
+    {
+        showFirst(m_loading->finish(m_device, kSubmissionMs, [] {}));
+        m_loading.reset();
+    }
+    else
+    {
+        m_device.run([this](vk::FrameGraph& graph) { m_renderer.keepColor(graph, kLoadingColor); });
+    }
+}
+
+// world: null if there is none.
+void App::showFirst(std::unique_ptr<World> world)
+{
+    m_is_first_world = false;
+    if (world != nullptr)
+    {
+        m_world = std::move(world);
+        m_camera.setSubject(m_world->subject);
+        showTitle();
+    }
+    m_camera.show(cli::chooseCamera(m_options.camera, m_world->scene.animated(), m_world->subject, aspect()));
+    m_timeline.start(m_options.voxels.time.value_or(0.0));
+    m_frame_start = Clock::now();
 }
 
 // Begins loading in the background. With fixed steps it loads at once, so that every run shows the same frames.
@@ -110,10 +148,17 @@ void App::continueLoading()
             m_loading->cancel();
         }
     };
+    m_makes_world = true;
     try
     {
         std::unique_ptr<World> world = m_loading->finish(m_device, kLoadingPieceMs, frame);
-        if (world != nullptr)
+        m_makes_world = false;
+        if (m_is_first_world)
+        {
+            finishAll();
+            showFirst(std::move(world));
+        }
+        else if (world != nullptr)
         {
             finishAll();
             show(std::move(world), m_loading->options());
@@ -121,8 +166,13 @@ void App::continueLoading()
     }
     catch (const std::exception& error)
     {
+        if (m_is_first_world)
+        {
+            throw;
+        }
         cli::talkError(error);
     }
+    m_makes_world = false;
     m_loading.reset();
     if (failure)
     {
@@ -233,7 +283,7 @@ void App::toolsPanel()
     }
     if (answer.saves)
     {
-        save();
+        whenFree([this] { save(); });
     }
 }
 

@@ -169,7 +169,8 @@ void showIntegrator(ViewState& view, const ViewInfo& info)
     }
     if (info.samples)
     {
-        tell(fmt::format("{} paths a pixel", *info.samples));
+        tell(fmt::format("{} {} a pixel", *info.samples,
+                         view.frame.integrator == Integrator::Path ? "paths" : "samples"));
     }
     if (info.cache_frames)
     {
@@ -177,9 +178,9 @@ void showIntegrator(ViewState& view, const ViewInfo& info)
     }
 }
 
-void showDenoise(ViewState& view, const ViewInfo& info)
+void showDenoise(ViewState& view, const ViewInfo&)
 {
-    if (info.samples)
+    if (view.frame.integrator == Integrator::Path)
     {
         ImGui::Checkbox("denoise", &view.frame.denoise);
     }

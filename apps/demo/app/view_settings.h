@@ -23,7 +23,7 @@ struct ViewInfo
     double internal_scale = 1; // in use
     vk::PresentMode mode = vk::PresentMode::Fifo;
     double camera_speed = 1;                   // world units a second
-    std::optional<std::uint32_t> samples;      // a pixel, where paths are traced
+    std::optional<std::uint32_t> samples;      // a pixel, where the picture has several
     std::optional<std::uint32_t> cache_frames; // of the radiance cache, where there is one
     std::uint32_t cached_faces = 0;            // that a frame samples at most
 };

@@ -47,6 +47,22 @@ bool chooseOne(const char* label, const std::array<const char*, count>& names, s
 
 } // namespace
 
+void loadingPanel(const WorldOptions& options, const Loading& loading)
+{
+    const ImVec2 middle = {ImGui::GetIO().DisplaySize.x * 0.5F, ImGui::GetIO().DisplaySize.y * 0.5F};
+    ImGui::SetNextWindowPos(middle, ImGuiCond_Always, {0.5F, 0.5F});
+    constexpr ImGuiWindowFlags kFlags = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_AlwaysAutoResize |
+                                        ImGuiWindowFlags_NoInputs | ImGuiWindowFlags_NoSavedSettings |
+                                        ImGuiWindowFlags_NoNav;
+    if (ImGui::Begin("loading", nullptr, kFlags))
+    {
+        ImGui::TextUnformatted(options.voxels.scenes.front().filename().string().c_str());
+        ImGui::ProgressBar(static_cast<float>(loading.done()), {ImGui::GetFontSize() * 24, 0},
+                           loading.operation().c_str());
+    }
+    ImGui::End();
+}
+
 BuildAnswer buildPanel(const WorldOptions& options, const World& world, const Loading* loading)
 {
     BuildAnswer answer;

@@ -52,6 +52,9 @@ struct BuildAnswer
 /// loading. loading: null for none.
 BuildAnswer buildPanel(const WorldOptions& options, const World& world, const Loading* loading);
 
+/// Shows the name of what is loaded first, and how far it is, in the middle of the window.
+void loadingPanel(const WorldOptions& options, const Loading& loading);
+
 /// The user's requests in the tools panel.
 struct ToolsAnswer
 {

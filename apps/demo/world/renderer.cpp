@@ -6,39 +6,50 @@
 namespace zvo::demo
 {
 
-void Renderer::begin(std::uint64_t frame, const DeviceTree& tree, const Picture& picture, bool encodes_srgb)
+void Renderer::beginFrame(std::uint64_t frame, const Composition& composition)
 {
     m_deletion_queue.beginFrame(frame);
-    m_renderer.resize(picture.internal.width, picture.internal.height);
-    const Integrator integrator = picture.options.shownIntegrator();
-    if (m_options.shownIntegrator() != integrator)
+    if (m_compose == nullptr || m_compose->size() != composition.window ||
+        m_compose->encodesSrgb() != composition.encodes_srgb)
     {
-        m_renderer.dropSamples();
-    }
-    m_options = picture.options;
-    m_renderer.reserve(tree, m_options);
-    if (m_compose == nullptr || m_compose->size() != picture.window || m_compose->encodesSrgb() != encodes_srgb)
-    {
-        auto compose = std::make_unique<ComposeImage>(m_device.device(), m_pass, picture.window, encodes_srgb);
+        auto compose =
+            std::make_unique<ComposeImage>(m_device.device(), m_pass, composition.window, composition.encodes_srgb);
         vk::replace(&m_deletion_queue, m_compose, std::move(compose));
     }
 }
 
+void Renderer::reserve(const DeviceTree& tree, const Picture& picture)
+{
+    m_renderer.resize(picture.size.width, picture.size.height);
+    m_has_buffers = true;
+    if (m_options.shownIntegrator() != picture.options.shownIntegrator())
+    {
+        m_renderer.dropSamples();
+    }
+    m_options = picture.options;
+    m_has_hits = false;
+    m_renderer.reserve(tree, m_options);
+}
+
 std::uint64_t Renderer::pictureBytes() const
 {
-    return m_compose == nullptr ? 0 : m_renderer.bytes() + m_compose->bytes();
+    return (m_has_buffers ? m_renderer.bytes() : 0) + (m_compose == nullptr ? 0 : m_compose->bytes()) + m_kept.bytes();
 }
 
 void Renderer::forget()
 {
     m_renderer.forgetNodePaths();
-    m_renderer.dropSamples(); // begin() makes what is needed
+    m_renderer.dropSamples(); // reserve() makes what is needed
     m_sky.forgetSun();
 }
 
-std::optional<std::uint32_t> Renderer::sampleCount() const
+void Renderer::beginPicture()
 {
-    return integrator() == Integrator::Path ? std::optional(m_renderer.pathCount()) : std::nullopt;
+    if (integrator() != Integrator::Path)
+    {
+        m_renderer.beginPicture(m_options);
+        m_sample_count = 0;
+    }
 }
 
 std::optional<std::uint32_t> Renderer::cacheFrames() const
@@ -46,47 +57,118 @@ std::optional<std::uint32_t> Renderer::cacheFrames() const
     return usesCache(integrator()) ? std::optional(m_renderer.cacheFrameCount()) : std::nullopt;
 }
 
-void Renderer::record(vk::FrameGraph& graph, const DeviceTree& tree, const Picture& picture)
+// What samples see. camera: must stay.
+FrameSubject Renderer::begin(const DeviceTree& tree, const TraceCamera& camera, const Picture& picture)
 {
-    const TraceBuffers& buffers = m_renderer.buffers();
-    const TraceCamera camera = traceCamera(picture.camera, tree.grid, buffers.height);
     const TraceOptions& options = m_options.trace;
-    const FrameSubject subject = {tree, camera, &m_sky};
     const double strength = options.shadows ? options.sun : 0.0;
     m_sky.setSun({.direction = options.to_sun, .irradiance = strength * kSunColor});
     if (picture.edited && usesCache(integrator()))
     {
         m_renderer.cache().noteChange();
     }
+    return {tree, camera, &m_sky};
+}
+
+void Renderer::recordPicture(vk::FrameGraph& graph, const DeviceTree& tree, const Picture& picture)
+{
+    const TraceCamera camera = traceCamera(picture.camera, tree.grid, picture.size.height);
+    const FrameSubject subject = begin(tree, camera, picture);
     m_renderer.render(graph, subject, m_options, picture.ray_lists);
-    if (picture.probe != nullptr && integrator() != Integrator::Primary)
+    m_sample_count = integrator() == Integrator::Path ? m_renderer.pathCount() : 1;
+    m_has_hits = integrator() != Integrator::Path; // whose rays leave no hits in buffers()
+    probe(graph, subject, picture);
+}
+
+void Renderer::recordSample(vk::FrameGraph& graph, const DeviceTree& tree, const Picture& picture)
+{
+    const TraceCamera camera = traceCamera(picture.camera, tree.grid, picture.size.height);
+    const FrameSubject subject = begin(tree, camera, picture);
+    m_renderer.addSample(graph, subject, m_options, picture.ray_lists);
+    m_sample_count = m_options.hasSamples() ? m_renderer.samples(m_options).sample_count : 1;
+    m_has_hits = m_has_hits || integrator() != Integrator::Path;
+    recordDevelopment(graph, m_options);
+    probe(graph, subject, picture);
+}
+
+void Renderer::recordDevelopment(vk::FrameGraph& graph, const FrameOptions& options)
+{
+    m_options = options;
+    m_renderer.denoise(graph, m_options);
+    m_renderer.develop(graph, m_options);
+}
+
+void Renderer::recordProbe(vk::FrameGraph& graph, const DeviceTree& tree, const Picture& picture)
+{
+    const TraceCamera camera = traceCamera(picture.camera, tree.grid, picture.size.height);
+    probe(graph, begin(tree, camera, picture), picture);
+}
+
+void Renderer::probe(vk::FrameGraph& graph, const FrameSubject& subject, const Picture& picture)
+{
+    if (picture.probe == nullptr)
+    {
+        return;
+    }
+    if (!std::exchange(m_has_hits, true))
     {
         m_renderer.traceHits(graph, subject, m_options);
     }
-    if (picture.probe != nullptr)
+    picture.probe->record(graph, subject.tree, subject.camera,
+                          usesCache(integrator()) ? TraceOptions() : m_options.trace, m_renderer.buffers(),
+                          picture.window);
+}
+
+void Renderer::makeKept(PictureSize size)
+{
+    if (m_kept.count() == 0 || m_kept_size != size)
     {
-        picture.probe->record(graph, tree, camera, options, buffers, picture.window);
+        vk::BufferOf<gpu::uint> kept(m_device.device(), "kept picture", std::uint64_t{size.width} * size.height);
+        m_deletion_queue.keep(std::exchange(m_kept, std::move(kept)));
+        m_kept_size = size;
     }
-    m_compose->fill(graph, buffers.image, {buffers.width, buffers.height});
-    if (picture.screenshot != nullptr && !picture.screenshot_has_panels)
+    m_shows_kept = true;
+}
+
+void Renderer::keepPicture(vk::FrameGraph& graph)
+{
+    const TraceBuffers& buffers = m_renderer.buffers();
+    makeKept({buffers.width, buffers.height});
+    graph.copy(buffers.image, 0, m_kept, 0, m_kept.bytes());
+}
+
+void Renderer::keepColor(vk::FrameGraph& graph, gpu::uint color)
+{
+    makeKept({1, 1});
+    graph.fill(m_kept, color);
+}
+
+void Renderer::recordFrame(vk::FrameGraph& graph, const Composition& composition)
+{
+    if (m_shows_kept)
     {
-        m_compose->copyTo(graph, *picture.screenshot);
+        m_compose->fill(graph, m_kept, m_kept_size);
     }
-    if (picture.panels)
+    else
     {
-        m_compose->drawOver(graph, picture.panels);
+        const TraceBuffers& buffers = m_renderer.buffers();
+        m_compose->fill(graph, buffers.image, {buffers.width, buffers.height});
     }
-    if (picture.screenshot != nullptr && picture.screenshot_has_panels)
+    if (composition.screenshot != nullptr && !composition.screenshot_has_panels)
     {
-        m_compose->copyTo(graph, *picture.screenshot);
+        m_compose->copyTo(graph, *composition.screenshot);
     }
-    if (picture.target != nullptr)
+    if (composition.panels)
     {
-        m_compose->show(graph, *picture.target);
+        m_compose->drawOver(graph, composition.panels);
     }
-    if (picture.screenshot != nullptr || picture.probe != nullptr || picture.ray_lists != nullptr)
+    if (composition.screenshot != nullptr && composition.screenshot_has_panels)
     {
-        graph.releaseToHost();
+        m_compose->copyTo(graph, *composition.screenshot);
+    }
+    if (composition.target != nullptr)
+    {
+        m_compose->show(graph, *composition.target);
     }
 }
 

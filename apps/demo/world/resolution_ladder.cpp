@@ -3,15 +3,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string_view>
 
 namespace zvo::demo
 {
 
-void ResolutionLadder::add(double gpu_ms)
+void ResolutionLadder::add(double scaling_ms)
 {
-    m_long_count = gpu_ms > kTooLongMs ? m_long_count + 1 : 0;
+    m_long_count = scaling_ms > kTooLongMs ? m_long_count + 1 : 0;
     const double growth = m_rung == 0 ? 1.0 : kScales[m_rung - 1] / kScales[m_rung];
-    const bool has_time = m_rung != 0 && gpu_ms * growth * growth < kShortMs;
+    const bool has_time = m_rung != 0 && scaling_ms * growth * growth < kShortMs;
     m_short_count = has_time ? m_short_count + 1 : 0;
     if (m_long_count >= kFramesToLower && m_rung + 1 < kScales.size())
     {
@@ -25,6 +26,20 @@ void ResolutionLadder::add(double gpu_ms)
         m_long_count = 0;
         m_short_count = 0;
     }
+}
+
+double scalingMs(std::span<const vk::PassTime> passes)
+{
+    constexpr std::array<std::string_view, 6> kScaling = {"trace/",        "path/",           "denoise/",
+                                                          "radiance/view", "radiance/direct", "radiance/cones"};
+    double ms = 0;
+    for (const vk::PassTime& pass : passes)
+    {
+        const bool scales =
+            std::ranges::any_of(kScaling, [&](std::string_view begin) { return pass.name.starts_with(begin); });
+        ms += scales && pass.name != "trace/node_paths" ? pass.ms : 0.0;
+    }
+    return ms;
 }
 
 PictureSize scaledSize(PictureSize window, double scale)

@@ -21,6 +21,8 @@ struct ViewCamera
     double vertical_fov = 0.7; // radians; perspective
     double half_height = 1.0;  // world units; orthographic
 
+    bool operator==(const ViewCamera&) const = default;
+
     /// The view of a scene's camera. Scale and shear of its transform are dropped. Throws Error{Input} if nothing is
     /// left.
     static ViewCamera of(const Camera& camera);
