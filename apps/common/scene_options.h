@@ -54,6 +54,14 @@ struct VoxelOptions
     [[nodiscard]] bool hasAttributes() const { return attributes != AttributeFormat::None; }
 };
 
+/// What a scene is lit by, in pictures with samples.
+struct EnvironmentOptions
+{
+    std::optional<std::filesystem::path> map; // or "none": no light; not given: the simple sky
+    double turn = 0.0;                        // degrees, counterclockwise from above
+    float strength = 1.0F;
+};
+
 /// The outputs of a command. "-" is standard output.
 struct OutputOptions
 {

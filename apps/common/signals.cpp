@@ -21,14 +21,16 @@ enum class Watch : int
     Interrupted,
 };
 std::atomic<Watch> g_watch = Watch::None;
-static_assert(std::atomic<Watch>::is_always_lock_free); // so that a signal handler may use it
+std::atomic<bool> g_notices_all = false;
+static_assert(std::atomic<bool>::is_always_lock_free &&
+              std::atomic<Watch>::is_always_lock_free); // so that a signal handler may use it
 
 // Removes half-written files and ends the process at once. Calls only functions that signal handlers may call.
 void onSignal(int signal)
 {
     constexpr int kSignalExit = 128; // plus the signal's number, as in shells
     Watch waiting = Watch::Waiting;
-    if (signal == SIGINT && g_watch.compare_exchange_strong(waiting, Watch::Interrupted))
+    if ((signal == SIGINT || g_notices_all) && g_watch.compare_exchange_strong(waiting, Watch::Interrupted))
     {
         return;
     }
@@ -57,8 +59,9 @@ void installSignalHandlers()
     std::signal(SIGXFSZ, SIG_IGN); // a file above the size limit fails the write, too
 }
 
-InterruptWatch::InterruptWatch()
+InterruptWatch::InterruptWatch(Noticed noticed)
 {
+    g_notices_all = noticed == Noticed::All;
     g_watch = Watch::Waiting;
 }
 

@@ -25,14 +25,6 @@ namespace zvo::cli
 inline constexpr auto kPathForms =
     std::to_array<Named<PathForm>>({{"stages", PathForm::Stages}, {"kernel", PathForm::OneKernel}});
 
-/// What a scene is lit by, in pictures with samples.
-struct EnvironmentOptions
-{
-    std::optional<std::filesystem::path> map; // or "none": no light; not given: the simple sky
-    double turn = 0.0;                        // degrees, counterclockwise from above
-    float strength = 1.0F;
-};
-
 /// What a picture is made of unless options say otherwise.
 inline FrameOptions usualFrame()
 {

@@ -4,22 +4,19 @@
 #include "common/output.h"
 #include "common/progress.h"
 #include "common/session.h"
+#include "common/tree_export.h"
 #include "common/tree_input.h"
 #include "core/base/input_error.h"
 #include "core/base/kernels.h"
 #include "core/file/zvo_file.h"
-#include "io/voxel/glb_write.h"
-#include "io/voxel/nvdb_write.h"
-#include "io/voxel/vox_file.h"
 #include "runtime/trees.h"
-#include "tree_export.h"
 #include "zvo/error.h"
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <array>
-#include <optional>
+#include <memory>
+#include <span>
+#include <string>
 #include <utility>
 
 namespace zvo::cli
@@ -28,51 +25,19 @@ namespace zvo::cli
 namespace
 {
 
-constexpr std::array<std::string_view, 6> kFormats = {"ply", "vox", "morton", "glb", "nvdb", "zvo"};
-
 std::string formatOf(const ConvertOptions& options)
 {
     if (!options.format.empty())
     {
         return options.format;
     }
-    const std::string extension = extensionOf(options.output.path);
-    const std::string format = extension.empty() ? extension : extension.substr(1);
-    if (std::find(kFormats.begin(), kFormats.end(), format) == kFormats.end())
+    const std::string format = treeFormatOf(options.output.path);
+    if (format.empty())
     {
         throw Error(ErrorCode::Usage, fmt::format("-o {}: the format is not clear; name it .{}, or say --format",
-                                                  options.output.path, fmt::join(kFormats, ", .")));
+                                                  options.output.path, fmt::join(kTreeFormats, ", .")));
     }
     return format;
-}
-
-void writeTree(const TreeData& tree, const std::string& format, Output& output)
-{
-    const auto write = [&output](std::span<const std::byte> bytes) { output.write(bytes); };
-    if (format == "ply")
-    {
-        writePly(tree, output);
-    }
-    else if (format == "morton")
-    {
-        writeMorton(tree, output);
-    }
-    else if (format == "vox")
-    {
-        writeVox(tree, write);
-    }
-    else if (format == "glb")
-    {
-        writeGlb(tree, write);
-    }
-    else if (format == "nvdb")
-    {
-        writeNvdb(tree, write);
-    }
-    else
-    {
-        writeZvo(tree, write);
-    }
 }
 
 } // namespace

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "renderer.h"
 
+#include "common/environment_input.h"
 #include "common/output.h"
 #include "common/report.h"
 #include "core/path/aov.h"
-#include "environment_input.h"
 #include "io/image/hdr_image_io.h"
 #include "io/image/image_io.h"
 #include "zvo/error.h"
@@ -61,7 +61,7 @@ Renderer::Renderer(vk::HeadlessDevice& device, const RenderOptions& options)
 {
     if (options.frame.integrator != Integrator::Primary)
     {
-        m_environment = readEnvironment(device.device(), options);
+        m_environment = readEnvironment(device.device(), options.environment, options.to_sun);
     }
 }
 

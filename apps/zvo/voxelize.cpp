@@ -5,12 +5,12 @@
 #include "common/progress.h"
 #include "common/report.h"
 #include "common/session.h"
+#include "common/tree_export.h"
 #include "core/file/zvo_file.h"
 #include "core/upload/gpu_scene.h"
 #include "runtime/octree_sha256.h"
 #include "runtime/tiled_build.h"
 #include "runtime/trees.h"
-#include "tree_export.h"
 #include "zvo/error.h"
 
 #include <fmt/format.h>

@@ -4,8 +4,21 @@
 #include "common/output.h"
 #include "core/tree/tree_data.h"
 
+#include <array>
+#include <string>
+#include <string_view>
+
 namespace zvo::cli
 {
+
+/// Kinds of files that writeTree() writes, as their extensions say.
+inline constexpr std::array<std::string_view, 6> kTreeFormats = {"ply", "vox", "morton", "glb", "nvdb", "zvo"};
+
+/// The kind of a file by its name; empty if that is none of kTreeFormats.
+std::string treeFormatOf(const std::string& path);
+
+/// Writes a tree as a file of that kind. Throws Error for what the kind cannot hold, and Error{Output}.
+void writeTree(const TreeData& tree, std::string_view format, Output& output);
 
 /// The Morton codes of all voxels, ascending, as 64-bit little-endian integers, and nothing else.
 void writeMorton(const TreeData& tree, Output& output);

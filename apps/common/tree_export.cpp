@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "tree_export.h"
+#include "common/tree_export.h"
 
 #include "common/normal.h"
 #include "core/base/morton.h"
+#include "core/file/zvo_file.h"
+#include "io/voxel/glb_write.h"
+#include "io/voxel/nvdb_write.h"
+#include "io/voxel/vox_file.h"
 
 #include <fmt/format.h>
 
@@ -113,6 +117,42 @@ void writePly(const TreeData& tree, Output& output)
                      pieces.endVoxel();
                  });
     pieces.flush();
+}
+
+std::string treeFormatOf(const std::string& path)
+{
+    const std::string extension = extensionOf(path);
+    const std::string format = extension.empty() ? extension : extension.substr(1);
+    return std::ranges::find(kTreeFormats, format) != kTreeFormats.end() ? format : "";
+}
+
+void writeTree(const TreeData& tree, std::string_view format, Output& output)
+{
+    const auto write = [&output](std::span<const std::byte> bytes) { output.write(bytes); };
+    if (format == "ply")
+    {
+        writePly(tree, output);
+    }
+    else if (format == "morton")
+    {
+        writeMorton(tree, output);
+    }
+    else if (format == "vox")
+    {
+        writeVox(tree, write);
+    }
+    else if (format == "glb")
+    {
+        writeGlb(tree, write);
+    }
+    else if (format == "nvdb")
+    {
+        writeNvdb(tree, write);
+    }
+    else
+    {
+        writeZvo(tree, write);
+    }
 }
 
 } // namespace zvo::cli

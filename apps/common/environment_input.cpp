@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "environment_input.h"
+#include "common/environment_input.h"
 
+#include "common/output.h"
 #include "common/progress.h"
 #include "core/base/read_file.h"
 #include "core/path/daylight.h"
@@ -54,10 +55,10 @@ void limit(HdrImage& map, float strength)
 
 } // namespace
 
-DeviceEnvironment readEnvironment(vk::Device& device, const RenderOptions& options)
+DeviceEnvironment readEnvironment(vk::Device& device, const EnvironmentOptions& asked,
+                                  const std::optional<glm::dvec3>& to_sun)
 {
-    const EnvironmentOptions& asked = options.environment;
-    const Sun sun = options.to_sun ? daylight(*options.to_sun) : daylight();
+    const Sun sun = to_sun ? daylight(*to_sun) : daylight();
     if (!asked.map)
     {
         DeviceEnvironment environment(device);
@@ -67,11 +68,17 @@ DeviceEnvironment readEnvironment(vk::Device& device, const RenderOptions& optio
     HdrImage map = readMap(*asked.map);
     limit(map, asked.strength);
     DeviceEnvironment environment(device, map, asked.turn * std::numbers::pi / 180.0, double{asked.strength});
-    if (options.to_sun)
+    if (to_sun)
     {
         environment.setSun(sun);
     }
     return environment;
+}
+
+bool isEnvironmentFile(const std::filesystem::path& path)
+{
+    const std::string extension = extensionOf(path.string());
+    return extension == ".hdr" || extension == ".exr";
 }
 
 } // namespace zvo::cli
