@@ -4,6 +4,7 @@
 #include "common/progress.h"
 #include "common/report.h"
 #include "common/session.h"
+#include "common/signals.h"
 #include "common/view.h"
 #include "core/base/kernels.h"
 #include "zvo/error.h"
@@ -95,6 +96,11 @@ App::App(const DemoOptions& options, Clock::time_point start)
     {
         m_flight.fly(readCameraPath(*options.camera_path), true);
     }
+    m_editor.state = m_settings.brush;
+    if (options.environment.map)
+    {
+        setEnvironment(options.environment);
+    }
     m_panels = {m_settings.shows_panels && !options.hide_ui, m_settings.shows_keys};
     m_timeline.start(options.voxels.time.value_or(0.0));
     if (m_device.device().report().type == "cpu" && !options.fixed_step)
@@ -107,7 +113,6 @@ App::App(const DemoOptions& options, Clock::time_point start)
             const std::lock_guard lock(m_told_mutex);
             m_told.emplace_back(text);
         });
-    showTitle();
     beginFirstWorld();
 }
 
@@ -119,8 +124,10 @@ App::~App()
 
 void App::run()
 {
+    const cli::InterruptWatch watch(cli::Noticed::All); // what is kept from run to run is kept then, too
     while (!m_quits)
     {
+        m_quits = watch.interrupted();
         continueLoading(); // draws frames, too
         if (!m_quits)
         {
@@ -236,7 +243,9 @@ void App::apply(const InputEvent& event)
     m_mouse = move != nullptr ? *move : m_mouse;
     m_refinement.noteInput(move != nullptr && m_editor.hasButton()); // a tool follows the pointer
     const bool is_the_panels = m_ui.handle(event);                   // the panels see events even while they are hidden
-    if (m_panels.shows_panels && is_the_panels)
+    const auto* const pressed = std::get_if<KeyEvent>(&event);
+    const bool is_the_dialogs = hasDialog() && (is_the_panels || (pressed != nullptr && pressed->pressed));
+    if ((m_panels.shows_panels && is_the_panels) || is_the_dialogs)
     {
         return;
     }
@@ -247,9 +256,10 @@ void App::apply(const InputEvent& event)
     }
     if (std::holds_alternative<CloseEvent>(event))
     {
-        m_quits = true;
+        quit();
         return;
     }
+    m_sun.handle(event, m_view.frame.trace.to_sun);
     const PictureSize size = m_window.size();
     m_camera.handle(event, m_editor.hasButton(), static_cast<double>(size.height));
     m_editor.handle(event, m_camera.camera(), {size.width, size.height}, *m_world);
@@ -267,6 +277,7 @@ void App::advanceTime()
 {
     const bool is_first = m_frame == 0;
     takeTold();
+    showTitle();
     m_notices.advance(m_frame_seconds);
     m_camera.advance(m_frame_seconds);
     m_flight.advance(m_frame_seconds, is_first, m_camera);
@@ -299,10 +310,12 @@ void App::buildPanels()
                    if (beginPanels("zvo", false))
                    {
                        scenePanel(*m_world, m_timeline);
+                       filesPanel();
                        buildPanel();
                        toolsPanel();
                        viewPanel(m_view, {internalScale(), m_swapchain.mode(), m_camera.speed(), shownSamples(),
-                                          m_renderer.cacheFrames(), RadianceOptions().faces});
+                                          m_renderer.cacheFrames(), RadianceOptions().faces, m_has_map});
+                       cameraPanel(m_camera);
                        ImGui::TextUnformatted("F1: keys");
                    }
                    ImGui::End();
@@ -332,13 +345,22 @@ void App::keepSettings()
     settings.shows_panels = m_options.hide_ui ? m_settings.shows_panels : m_panels.shows_panels;
     settings.shows_keys = m_panels.shows_keys;
     settings.view = m_view;
+    settings.brush = m_editor.state;
+    settings.brush.tool = Tool::Camera;
+    rememberScene();
+    settings.scenes = m_settings.scenes;
     writeSettings(*file, settings);
 }
 
 void App::showTitle()
 {
     const std::string& name = m_world->name;
-    m_window.setTitle(name.empty() ? "zvo" : name + " - zvo");
+    const std::string title = (hasUnsaved() ? "*" : "") + (name.empty() ? "zvo" : name + " - zvo");
+    if (m_title != title)
+    {
+        m_title = title;
+        m_window.setTitle(title);
+    }
 }
 
 double App::aspect() const

@@ -3,6 +3,8 @@
 
 #include "demo/app/editor.h"
 #include "demo/app/options.h"
+#include "demo/app/saved_mark.h"
+#include "demo/app/scene_memory.h"
 #include "demo/app/screenshot.h"
 #include "demo/app/settings.h"
 #include "demo/app/shader_sources.h"
@@ -13,9 +15,12 @@
 #include "demo/input/camera_flight.h"
 #include "demo/input/input_script.h"
 #include "demo/input/keys.h"
+#include "demo/input/sun_control.h"
 #include "demo/input/timeline.h"
+#include "demo/panels/file_dialog.h"
 #include "demo/panels/frame_stats.h"
 #include "demo/panels/notices.h"
+#include "demo/panels/panel_files.h"
 #include "demo/panels/panels.h"
 #include "demo/world/compose.h"
 #include "demo/world/loading.h"
@@ -27,7 +32,6 @@
 #include "vk/headless.h"
 #include "vk/swapchain.h"
 
-#include <array>
 #include <chrono>
 #include <deque>
 #include <filesystem>
@@ -70,6 +74,7 @@ private:
         std::optional<std::size_t> inspected; // the pixel under the pointer
         glm::uvec2 inspected_pixel{0U};
         std::optional<std::size_t> color;               // for the brush
+        std::optional<std::size_t> focus;               // of the lens
         std::vector<std::optional<std::size_t>> stroke; // nothing: outside of the window
     };
 
@@ -154,7 +159,24 @@ private:
     void show(std::unique_ptr<World> world, const WorldOptions& options);
     void request(const EditRequest& request);
     bool isMakingAWorld();
-    void save();
+    void applyViewOptions();
+    void setEnvironment(const cli::EnvironmentOptions& options);
+    void focusOn(const gpu::PixelReport& report);
+    void loadEnvironment(const std::filesystem::path& file);
+    bool save();
+    bool write(const std::filesystem::path& file, bool overwrites);
+    void openDialog();
+    void saveDialog();
+    bool drawDialogs();
+    [[nodiscard]] bool hasDialog() const;
+    void loseStrokes(std::function<void()> action);
+    void quit();
+    void filesPanel();
+    void rememberScene();
+    bool recallScene();
+    [[nodiscard]] std::string editedName() const;
+    [[nodiscard]] EditPoint editPoint() const;
+    [[nodiscard]] bool hasUnsaved() const;
     void showTitle();
     void storeBookmark(std::size_t number);
     void recallBookmark(std::size_t number);
@@ -178,7 +200,7 @@ private:
     void writeStats();
 
     const DemoOptions m_options;
-    Settings m_settings; // at the beginning
+    Settings m_settings; // at the beginning; the scenes are those of now
     ViewState m_view;
     Clock::time_point m_start;
     std::unique_ptr<cli::Output> m_screenshot_output; // of the last frame
@@ -200,18 +222,25 @@ private:
     std::deque<FrameInFlight> m_frames_in_flight;
 
     Editor m_editor;
+    SavedMark m_saved_mark;
+    std::filesystem::path m_saved_file; // for Ctrl+S; empty: a new one
+    FileDialog m_file_dialog;
+    std::function<void()> m_after_loss; // what the user is asked about, as strokes are lost by it; null: nothing
+    std::string m_title;
     PanelState m_panels;
     Notices m_notices;
     std::mutex m_told_mutex;
     std::vector<std::string> m_told; // by any thread, to be noticed
     Timeline m_timeline;
     CameraControl m_camera;
-    std::array<std::optional<ViewCamera>, 9> m_bookmarks;
+    Bookmarks m_bookmarks;
+    SunControl m_sun;
     CameraFlight m_flight;
     ShaderSources m_shaders;
     std::string m_shader_message; // of the compiler
     std::optional<MouseMoveEvent> m_mouse;
     std::optional<InspectedPixel> m_inspected;
+    bool m_wants_focus = false; // at the pointer
     std::vector<ScriptedEvent> m_recorded;
     std::optional<bool> m_wanted_screenshot; // with panels, or without
     std::optional<ResolutionLadder> m_ladder;
@@ -222,6 +251,7 @@ private:
     std::chrono::duration<double> m_passed{0}; // since the frame before
     double m_frame_seconds = 0;                // that this frame takes
     std::optional<double> m_first_frame_ms;
+    bool m_has_map = false;      // an environment map lights the picture
     bool m_has_overlay = false;  // over the picture, whether or not panels are shown
     bool m_lacks_memory = false; // for a picture of the window's size
 

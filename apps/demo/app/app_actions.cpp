@@ -87,9 +87,15 @@ void App::perform(const KeyBinding& binding, Key key)
         return request(RedoStroke{});
     case Action::Save:
         return whenFree([this] { save(); });
-    case Action::Quit:
-        m_quits = true;
+    case Action::SaveAs:
+        return saveDialog();
+    case Action::Open:
+        return openDialog();
+    case Action::Focus:
+        m_wants_focus = true;
         return;
+    case Action::Quit:
+        return quit();
     case Action::None:
         return;
     }

@@ -41,6 +41,10 @@ App::FrameLooks App::takeLooks()
     }
     const EditorLooks wanted = m_editor.takeLooks();
     looks.color = wanted.color ? place(*wanted.color) : std::nullopt;
+    if (std::exchange(m_wants_focus, false) && m_mouse)
+    {
+        looks.focus = place({m_mouse->x, m_mouse->y});
+    }
     for (const glm::dvec2& point : wanted.stroke)
     {
         looks.stroke.push_back(place(point));
@@ -60,6 +64,10 @@ void App::answer(const FrameLooks& looks)
     if (looks.inspected)
     {
         m_inspected = {looks.inspected_pixel, reports[*looks.inspected]};
+    }
+    if (looks.focus)
+    {
+        focusOn(reports[*looks.focus]);
     }
     std::vector<gpu::PixelReport> stroke;
     for (const std::optional<std::size_t>& place : looks.stroke)

@@ -12,7 +12,8 @@ namespace zvo::demo
 // Returns whether anything is drawn.
 bool App::drawOverlay()
 {
-    return drawBrushCursor();
+    const bool has_brush = drawBrushCursor();
+    return drawDialogs() || has_brush;
 }
 
 bool App::drawBrushCursor()

@@ -31,8 +31,12 @@ struct Abandoned
 
 PictureState App::pictureState() const
 {
-    PictureState state = {m_camera.camera(), m_view.frame, m_window.framebufferSize(), m_world->scene.tree().version,
-                          m_world->scene.moves() ? worldSeconds() : 0.0};
+    PictureState state = {m_camera.camera(),
+                          m_view.frame,
+                          m_window.framebufferSize(),
+                          m_world->scene.tree().version,
+                          m_world->scene.moves() ? worldSeconds() : 0.0,
+                          m_renderer.skyVersion()};
     state.options.exposure = {};
     state.options.denoise = false;
     return state;

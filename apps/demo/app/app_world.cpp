@@ -2,17 +2,14 @@
 // App: the world that is shown, and the one that is being loaded.
 #include "demo/app/app.h"
 
-#include "common/output.h"
+#include "common/environment_input.h"
 #include "common/progress.h"
 #include "common/view.h"
-#include "core/file/zvo_file.h"
 #include "zvo/error.h"
-
-#include <fmt/format.h>
 
 #include <exception>
 #include <filesystem>
-#include <span>
+#include <memory>
 #include <utility>
 
 namespace zvo::demo
@@ -23,22 +20,6 @@ namespace
 
 constexpr double kLoadingPieceMs = 30;           // work on a world between two frames of another one
 constexpr gpu::uint kLoadingColor = 0xFF201C1AU; // of the window, red in the lowest bits
-constexpr int kSavedMost = 1000;                 // largest number in a file's name
-
-// A name in the working folder that no file has yet.
-std::string freeName(const std::string& stem)
-{
-    for (int i = 1; i < kSavedMost; ++i)
-    {
-        const std::string name = i == 1 ? stem + ".zvo" : fmt::format("{}-{}.zvo", stem, i);
-        std::error_code ignored;
-        if (!std::filesystem::exists(name, ignored))
-        {
-            return name;
-        }
-    }
-    throw Error(ErrorCode::Output, fmt::format("there are {} files like {}.zvo already", kSavedMost, stem));
-}
 
 } // namespace
 
@@ -48,12 +29,17 @@ void App::loadFiles(const std::vector<std::filesystem::path>& files)
     {
         return;
     }
+    if (files.size() == 1 && cli::isEnvironmentFile(files.front()))
+    {
+        whenFree([this, file = files.front()] { loadEnvironment(file); });
+        return;
+    }
     WorldOptions options = m_world_options;
     options.voxels.scenes = files;
     options.voxels.time.reset(); // belongs to the files of the command line, as does the grid's position
     options.voxels.bounds.reset();
     options.voxels.grid_position.reset();
-    beginLoading(std::move(options));
+    loseStrokes([this, options] { beginLoading(options); });
 }
 
 // Shows the files of the command line. A run that is the same for everyone has them from its first frame on; otherwise
@@ -88,7 +74,14 @@ void App::showFirst(std::unique_ptr<World> world)
         m_camera.setSubject(m_world->subject);
         showTitle();
     }
-    m_camera.show(cli::chooseCamera(m_options.camera, m_world->scene.animated(), m_world->subject, aspect()));
+    if (m_options.camera.empty() && !m_options.camera_path && recallScene())
+    {
+        applyViewOptions();
+    }
+    else
+    {
+        m_camera.show(cli::chooseCamera(m_options.camera, m_world->scene.animated(), m_world->subject, aspect()));
+    }
     m_timeline.start(m_options.voxels.time.value_or(0.0));
     m_frame_start = Clock::now();
 }
@@ -188,10 +181,16 @@ void App::continueLoading()
 void App::show(std::unique_ptr<World> world, const WorldOptions& options)
 {
     const bool is_same = options.voxels.scenes == m_world_options.voxels.scenes;
+    if (!is_same)
+    {
+        rememberScene();
+    }
     m_world = std::move(world);
     m_world_options = options;
     m_editor.release();
     m_inspected.reset();
+    m_saved_mark.reset();
+    m_saved_file.clear();
     m_camera.setSubject(m_world->subject);
     if (is_same)
     {
@@ -200,8 +199,10 @@ void App::show(std::unique_ptr<World> world, const WorldOptions& options)
     m_bookmarks = {};
     m_flight.stop();
     m_timeline.start(0);
-    m_camera.show(cli::chooseCamera("", m_world->scene.animated(), m_world->subject, aspect()));
-    showTitle();
+    if (!recallScene())
+    {
+        m_camera.show(cli::chooseCamera("", m_world->scene.animated(), m_world->subject, aspect()));
+    }
 }
 
 void App::request(const EditRequest& request)
@@ -220,31 +221,6 @@ bool App::isMakingAWorld()
         note("not before the new scene is there");
     }
     return m_loading != nullptr;
-}
-
-// Saves the shown tree to a file.
-void App::save()
-{
-    if (isMakingAWorld())
-    {
-        return;
-    }
-    finishAll();
-    try
-    {
-        const std::string stem = std::filesystem::path(m_world->name).stem().string();
-        const std::string name = freeName((stem.empty() ? "zvo" : stem) + "-edited");
-        m_world->scene.settle(worldSeconds());
-        cli::Output output(name, false);
-        writeZvo(m_world->copyTree(m_device), [&output](std::span<const std::byte> bytes) { output.write(bytes); });
-        output.finish();
-        note("saved " + name);
-    }
-    catch (const std::exception& error)
-    {
-        cli::talkError(error);
-    }
-    m_frame_start = Clock::now();
 }
 
 void App::takeTold()
@@ -266,7 +242,7 @@ void App::buildPanel()
     }
     if (answer.rebuild)
     {
-        beginLoading(std::move(*answer.rebuild));
+        loseStrokes([this, options = *answer.rebuild] { beginLoading(options); });
     }
 }
 

@@ -55,6 +55,9 @@ public:
     /// Queues an edit behind the stroke that is under way.
     void request(const EditRequest& request, World& world);
 
+    /// Whether a stroke is not finished yet.
+    [[nodiscard]] bool isBusy() const { return m_used.tool == Tool::Brush && m_stroke.isActive(); }
+
     /// Ends everything that is under way, because the world was replaced.
     void release();
 

@@ -89,6 +89,15 @@ void addViewOptions(CLI::App& app, DemoOptions& options)
     cli::addValue(app, "--camera-path", options.camera_path, cli::parsePath, "FILE",
                   "fly along the cameras of a file, as zvo render does")
         ->group(kGroup);
+    cli::addValue(app, "--environment", options.environment.map, cli::parsePath, "FILE",
+                  "a map of the light from all directions, .hdr or .exr, in place of sun and sky, or none for no light")
+        ->group(kGroup);
+    cli::addValue(app, "--environment-turn", options.environment.turn, cli::parseDegrees, "DEGREES",
+                  "turns maps about the vertical, counterclockwise from above (default 0)")
+        ->group(kGroup);
+    cli::addValue(app, "--environment-strength", options.environment.strength, cli::parsePositive, "FACTOR",
+                  "factor for the light of maps (default 1)")
+        ->group(kGroup);
 }
 
 void addWindowOptions(CLI::App& app, DemoOptions& options)
@@ -142,7 +151,8 @@ void check(const CLI::App& app, const DemoOptions& options)
         cli::checkPictureName("--screenshot", options.screenshot);
     }
     std::vector<std::filesystem::path> inputs = options.voxels.scenes;
-    for (const std::optional<std::filesystem::path>& input : {options.input_script, options.camera_path})
+    for (const std::optional<std::filesystem::path>& input :
+         {options.input_script, options.camera_path, options.environment.map})
     {
         if (input)
         {

@@ -28,6 +28,7 @@ struct DemoOptions
     std::string camera; // as in `zvo render`
     std::optional<std::filesystem::path> camera_path;
     std::vector<ViewChange> view_changes; // to the view of the settings
+    cli::EnvironmentOptions environment;
     std::uint32_t frames_in_flight = DynamicTreeInfo().frames_in_flight;
 
     std::optional<std::uint64_t> frame_count; // frames after which the program ends

@@ -14,6 +14,7 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <array>
 #include <iterator>
 #include <span>
 #include <system_error>
@@ -51,6 +52,29 @@ ViewState readViewState(const JsonCursor& object)
     return view;
 }
 
+constexpr std::array<std::string_view, 3> kBrushActions = {"carve", "fill", "paint"};
+constexpr std::array<std::string_view, 2> kBrushShapes = {"sphere", "box"};
+
+ToolState readBrush(const JsonCursor& object)
+{
+    object.allowKeys({"action", "shape", "radius", "color"});
+    ToolState brush;
+    brush.action = static_cast<BrushAction>(object.at("action").oneOf(kBrushActions));
+    brush.shape = static_cast<BrushShape>(object.at("shape").oneOf(kBrushShapes));
+    brush.radius = static_cast<int>(object.at("radius").whole(0, gpu::kBrushRadiusMax));
+    const glm::vec3 color(object.at("color").vector());
+    brush.color = {color.x, color.y, color.z};
+    return brush;
+}
+
+Json brushJson(const ToolState& brush)
+{
+    return {{"action", kBrushActions[static_cast<std::size_t>(brush.action)]},
+            {"shape", kBrushShapes[static_cast<std::size_t>(brush.shape)]},
+            {"radius", brush.radius},
+            {"color", {double{brush.color[0]}, double{brush.color[1]}, double{brush.color[2]}}}};
+}
+
 } // namespace
 
 std::optional<std::filesystem::path> settingsFile()
@@ -63,7 +87,7 @@ Settings parseSettings(std::string_view text, const std::filesystem::path& file)
 {
     const nlohmann::json document = parseJsonStrictly(text, file);
     const JsonCursor object(document, file);
-    object.allowKeys({"schema", "window", "panels", "keys", "view"});
+    object.allowKeys({"schema", "window", "panels", "keys", "view", "brush", "scenes"});
     static_cast<void>(object.at("schema").oneOf({kSchema}));
     Settings settings;
     with(object, "window",
@@ -75,6 +99,15 @@ Settings parseSettings(std::string_view text, const std::filesystem::path& file)
     with(object, "panels", [&](const JsonCursor& value) { settings.shows_panels = value.flag(); });
     with(object, "keys", [&](const JsonCursor& value) { settings.shows_keys = value.flag(); });
     with(object, "view", [&](const JsonCursor& value) { settings.view = readViewState(value); });
+    with(object, "brush", [&](const JsonCursor& value) { settings.brush = readBrush(value); });
+    with(object, "scenes",
+         [&](const JsonCursor& value)
+         {
+             for (const JsonCursor& scene : value.items())
+             {
+                 settings.scenes.push_back(readMemory(scene));
+             }
+         });
     return settings;
 }
 
@@ -91,6 +124,12 @@ std::string settingsText(const Settings& settings)
         {
             json["view"][setting.key] = std::move(value);
         }
+    }
+    json["brush"] = brushJson(settings.brush);
+    json["scenes"] = Json::array();
+    for (const SceneMemory& scene : settings.scenes)
+    {
+        json["scenes"].push_back(memoryJson(scene));
     }
     return json.dump(2) + "\n";
 }

@@ -2,12 +2,15 @@
 #pragma once
 
 #include "core/present/present.h"
+#include "demo/app/scene_memory.h"
+#include "demo/world/tool.h"
 #include "demo/world/view_state.h"
 
 #include <filesystem>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace zvo::demo
 {
@@ -19,6 +22,8 @@ struct Settings
     bool shows_panels = true;
     bool shows_keys = false;
     ViewState view;
+    ToolState brush;                 // whatever the tool
+    std::vector<SceneMemory> scenes; // the last one first
 
     bool operator==(const Settings&) const = default;
 };

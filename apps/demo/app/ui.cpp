@@ -39,13 +39,11 @@ struct Feed
 {
     ImGuiIO& io;
     std::span<Ui::Button> buttons;
+    std::span<Ui::Button> keys;
 
     bool operator()(const KeyEvent& event) const
     {
-        io.KeysDown[indexOf(event.key)] = event.pressed;
-        io.KeyShift = io.KeysDown[indexOf(Key::LeftShift)] || io.KeysDown[indexOf(Key::RightShift)];
-        io.KeyCtrl = io.KeysDown[indexOf(Key::LeftControl)] || io.KeysDown[indexOf(Key::RightControl)];
-        io.KeyAlt = io.KeysDown[indexOf(Key::LeftAlt)] || io.KeysDown[indexOf(Key::RightAlt)];
+        keys[static_cast<std::size_t>(event.key)].take(event.pressed);
         return event.pressed && io.WantTextInput; // everybody sees a key's release
     }
     bool operator()(const TextEvent& event) const
@@ -177,7 +175,7 @@ void Ui::setUpKeys()
 
 bool Ui::handle(const InputEvent& event)
 {
-    return std::visit(Feed{ImGui::GetIO(), m_buttons}, event);
+    return std::visit(Feed{ImGui::GetIO(), m_buttons, m_keys}, event);
 }
 
 void Ui::build(PictureSize window, PictureSize framebuffer, double seconds, const std::function<void()>& panels)
@@ -194,6 +192,13 @@ void Ui::build(PictureSize window, PictureSize framebuffer, double seconds, cons
     {
         io.MouseDown[i] = m_buttons[i].forFrame();
     }
+    for (std::size_t i = 0; i < m_keys.size(); ++i)
+    {
+        io.KeysDown[i] = m_keys[i].forFrame();
+    }
+    io.KeyShift = io.KeysDown[indexOf(Key::LeftShift)] || io.KeysDown[indexOf(Key::RightShift)];
+    io.KeyCtrl = io.KeysDown[indexOf(Key::LeftControl)] || io.KeysDown[indexOf(Key::RightControl)];
+    io.KeyAlt = io.KeysDown[indexOf(Key::LeftAlt)] || io.KeysDown[indexOf(Key::RightAlt)];
     io.DeltaTime = static_cast<float>(std::max(seconds, kShortest));
     ImGui_ImplVulkan_NewFrame();
     ImGui::NewFrame();

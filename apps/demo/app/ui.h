@@ -21,7 +21,7 @@ class Window;
 class Ui
 {
 public:
-    /// The state of a mouse button as Dear ImGui sees it: down for at least one frame, however short a click was.
+    /// The state of a mouse button or key as Dear ImGui sees it: down for at least one frame, however short it was.
     class Button
     {
     public:
@@ -63,6 +63,7 @@ private:
     VkDescriptorPool m_descriptors = VK_NULL_HANDLE;
     float m_scale;
     std::array<Button, kMouseButtonCount> m_buttons;
+    std::array<Button, kKeyCount> m_keys;
     std::string m_clipboard; // last text given to Dear ImGui
 };
 

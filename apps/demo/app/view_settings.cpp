@@ -4,6 +4,7 @@
 #include "common/names.h"
 #include "common/parse.h"
 #include "common/view.h"
+#include "demo/input/sun_control.h"
 #include "demo/panels/panel_text.h"
 #include "demo/world/resolution_ladder.h"
 #include "zvo/error.h"
@@ -87,6 +88,14 @@ Form<std::optional<double>> scale()
     };
     return {parse, [](const JsonCursor& value) { return std::optional(value.positive(1)); },
             [](const std::optional<double>& factor) { return factor ? Json(*factor) : Json(); }};
+}
+
+// Belongs to a scene's size, so that it is not kept for others.
+Form<float> ofScene()
+{
+    return {cli::parsePositive,
+            [](const JsonCursor& value) { return static_cast<float>(value.positive(kPositiveMax)); },
+            [](float) { return Json(); }};
 }
 
 // Of any length, but not 0.
@@ -201,6 +210,54 @@ void showOcclusion(ViewState& view, const ViewInfo&)
     }
 }
 
+void showSun(ViewState& view, const ViewInfo& info)
+{
+    if (info.has_map)
+    {
+        ImGui::Checkbox("sun beside the map", &view.map_sun);
+    }
+    const SunAngles before = sunAngles(view.frame.trace.to_sun);
+    auto azimuth = static_cast<float>(before.azimuth);
+    auto elevation = static_cast<float>(before.elevation);
+    bool is_moved =
+        ImGui::SliderFloat("sun from north", &azimuth, 0.0F, 360.0F, "%.0f deg", ImGuiSliderFlags_AlwaysClamp);
+    is_moved |= ImGui::SliderFloat("sun's height", &elevation, -10.0F, 89.0F, "%.0f deg", ImGuiSliderFlags_AlwaysClamp);
+    if (is_moved)
+    {
+        view.frame.trace.to_sun = toSun({azimuth, elevation});
+    }
+}
+
+void showBounces(ViewState& view, const ViewInfo& info)
+{
+    constexpr int kUsefulMost = 32;
+    int bounces = static_cast<int>(view.frame.path.bounces);
+    if (info.samples && ImGui::SliderInt("bounces", &bounces, 0, kUsefulMost, "%d", ImGuiSliderFlags_AlwaysClamp))
+    {
+        view.frame.path.bounces = static_cast<std::uint32_t>(bounces);
+    }
+}
+
+void showAperture(ViewState& view, const ViewInfo& info)
+{
+    PathOptions& path = view.frame.path;
+    if (info.samples)
+    {
+        // At the far end, what is twice as far away as the focus has a blur of a twentieth of its distance.
+        ImGui::SliderFloat("aperture", &path.lens_radius, 0.0F, 0.1F * path.focus_distance, "%.3g",
+                           ImGuiSliderFlags_AlwaysClamp | ImGuiSliderFlags_NoRoundToFormat);
+    }
+}
+
+void showFocus(ViewState& view, const ViewInfo& info)
+{
+    PathOptions& path = view.frame.path;
+    if (info.samples && path.lens_radius > 0)
+    {
+        ImGui::DragFloat("focus (G)", &path.focus_distance, 0.005F * path.focus_distance, 1e-4F, 1e6F, "%.3g");
+    }
+}
+
 void showExposure(ViewState& view, const ViewInfo&)
 {
     ImGui::SliderFloat("exposure", &view.frame.exposure.factor, 0.05F, 20.0F, "%.2f",
@@ -270,7 +327,19 @@ std::vector<ViewSetting> makeSettings()
             true),
         setting(
             "sun", [](auto& view) -> auto& { return view.frame.trace.to_sun; }, direction(),
-            {kViewGroup, "x,y,z", "direction to the sun"}, nullptr),
+            {kViewGroup, "x,y,z", "direction to the sun"}, showSun, true),
+        setting(
+            "map_sun", [](auto& view) -> auto& { return view.map_sun; }, flag(),
+            {kViewGroup, "", "a sun beside the map of --environment"}, nullptr),
+        setting(
+            "bounces", [](auto& view) -> auto& { return view.frame.path.bounces; }, wholeUpTo(kBouncesMax),
+            {kViewGroup, "N", "diffuse reflections of a path (default 8)"}, showBounces, true),
+        setting(
+            "aperture", [](auto& view) -> auto& { return view.frame.path.lens_radius; }, ofScene(),
+            {kViewGroup, "RADIUS", "of the lens of paths, in world units (default: a pinhole)"}, showAperture, true),
+        setting(
+            "focus", [](auto& view) -> auto& { return view.frame.path.focus_distance; }, ofScene(),
+            {kViewGroup, "DISTANCE", "of the plane in focus, in world units (default 1)"}, showFocus, true),
         setting(
             "exposure", [](auto& view) -> auto& { return view.frame.exposure.factor; }, positive(),
             {kViewGroup, "FACTOR", "brightness (default 1)"}, showExposure, true),

@@ -26,6 +26,7 @@ struct ViewInfo
     std::optional<std::uint32_t> samples;      // a pixel, where the picture has several
     std::optional<std::uint32_t> cache_frames; // of the radiance cache, where there is one
     std::uint32_t cached_faces = 0;            // that a frame samples at most
+    bool has_map = false;                      // an environment map lights the picture
 };
 
 using ViewChange = std::function<void(ViewState& view)>;

@@ -3,6 +3,7 @@
 // arguments, and change those that the user changes.
 #pragma once
 
+#include "demo/input/camera_control.h"
 #include "demo/input/timeline.h"
 #include "demo/panels/frame_stats.h"
 #include "demo/panels/notices.h"
@@ -65,6 +66,9 @@ struct ToolsAnswer
 
 /// Shows the tool of the left button, the brush, and the history.
 ToolsAnswer toolsPanel(ToolState& state, const World& world);
+
+/// Shows and changes the camera's field of view.
+void cameraPanel(CameraControl& camera);
 
 /// A pixel under the pointer, and what its ray hits.
 struct InspectedPixel

@@ -18,7 +18,8 @@ struct PictureState
     FrameOptions options; // without those of its development
     PictureSize window;
     std::uint64_t tree_version = 0;
-    double seconds = 0; // of the scene
+    double seconds = 0;              // of the scene
+    std::uint64_t light_version = 0; // of all but options
 
     bool operator==(const PictureState&) const = default;
 };

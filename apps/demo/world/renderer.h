@@ -13,6 +13,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <utility>
 
 namespace zvo::demo
 {
@@ -24,6 +25,7 @@ struct Picture
     FrameOptions options;
     PictureSize size;
     PictureSize window;          // in which it is shown
+    bool has_sun = true;         // where options do not say otherwise
     PixelProbe* probe = nullptr; // finds what the rays of single pixels meet; may be null
     /// Gets what tells how many rays the paths have (rayCountOf()), [Renderer::rayListElements()]; may be null.
     vk::BufferOf<gpu::DispatchArgs>* ray_lists = nullptr;
@@ -93,6 +95,9 @@ public:
     /// may have changed.
     void forget();
 
+    /// Lights pictures by another sky. The device must be done with all frames.
+    void setSky(DeviceEnvironment sky) { m_sky = std::move(sky); }
+
     /// Device memory for the picture.
     [[nodiscard]] std::uint64_t pictureBytes() const;
 
@@ -101,6 +106,9 @@ public:
 
     /// Frames of the radiance cache, where there is one.
     [[nodiscard]] std::optional<std::uint32_t> cacheFrames() const;
+
+    /// Changes with the light of sun and sky.
+    [[nodiscard]] std::uint64_t skyVersion() const { return m_sky.version(); }
 
     /// Elements of the lists of the rays of the picture; 0 where it is not path traced.
     [[nodiscard]] std::uint64_t rayListElements() const { return m_renderer.rayListElements(m_options); }

@@ -26,6 +26,8 @@ struct ToolState
     int radius = 8;                                   // voxels
     std::array<float, 3> color = {0.85F, 0.2F, 0.1F}; // sRGB, from 0 to 1
 
+    bool operator==(const ToolState&) const = default;
+
     /// The dab at a voxel.
     [[nodiscard]] Brush brushAt(const glm::ivec3& voxel) const
     {

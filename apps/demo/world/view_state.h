@@ -13,6 +13,7 @@ namespace zvo::demo
 struct ViewState
 {
     FrameOptions frame;
+    bool map_sun = false;                 // there is a sun beside an environment map
     std::optional<double> internal_scale; // of the window's edges; not given: as fast as the device allows
     vk::PresentMode present_mode = vk::PresentMode::Fifo;
 

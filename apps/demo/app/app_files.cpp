@@ -1,0 +1,223 @@
+// SPDX-License-Identifier: MIT
+// App: files that are opened and saved, and strokes that are not in a file.
+#include "demo/app/app.h"
+
+#include "common/environment_input.h"
+#include "common/output.h"
+#include "common/progress.h"
+#include "common/tree_export.h"
+#include "zvo/error.h"
+
+#include <fmt/format.h>
+
+#include <exception>
+#include <utility>
+
+namespace zvo::demo
+{
+
+namespace
+{
+
+constexpr int kSavedMost = 1000; // largest number in a file's name
+
+const std::vector<std::string> kReadExtensions = {".zvo", ".vox", ".glb",  ".gltf", ".obj",
+                                                  ".ply", ".stl", ".json", ".hdr",  ".exr"};
+const std::vector<std::string> kWrittenExtensions = {".zvo", ".vox", ".ply", ".glb", ".nvdb"};
+
+// A name in the working folder that no file has yet.
+std::string freeName(const std::string& stem)
+{
+    for (int i = 1; i < kSavedMost; ++i)
+    {
+        const std::string name = i == 1 ? stem + ".zvo" : fmt::format("{}-{}.zvo", stem, i);
+        std::error_code ignored;
+        if (!std::filesystem::exists(name, ignored))
+        {
+            return name;
+        }
+    }
+    throw Error(ErrorCode::Output, fmt::format("there are {} files like {}.zvo already", kSavedMost, stem));
+}
+
+} // namespace
+
+std::string App::editedName() const
+{
+    const std::string stem = std::filesystem::path(m_world->name).stem().string();
+    return (stem.empty() ? "zvo" : stem) + "-edited";
+}
+
+EditPoint App::editPoint() const
+{
+    const Edits* const edits = m_world->scene.edits();
+    return edits != nullptr ? EditPoint{edits->undoCount(), edits->changeCount()} : EditPoint{};
+}
+
+bool App::hasUnsaved() const
+{
+    return m_editor.isBusy() || !m_saved_mark.holds(editPoint());
+}
+
+// Saves to the file that was chosen before, or to a new one in the working folder.
+bool App::save()
+{
+    try
+    {
+        return m_saved_file.empty() ? write(freeName(editedName()), false) : write(m_saved_file, true);
+    }
+    catch (const Error& error) // there is no free name
+    {
+        cli::talkError(error);
+        return false;
+    }
+}
+
+// Writes the shown tree to a file, whose name says of what kind it is. Returns whether it is written.
+bool App::write(const std::filesystem::path& file, bool overwrites)
+{
+    if (isMakingAWorld())
+    {
+        return false;
+    }
+    finishAll();
+    bool is_written = false;
+    try
+    {
+        m_world->scene.settle(worldSeconds());
+        cli::Output output(file.string(), overwrites);
+        const std::string format = cli::treeFormatOf(file.string());
+        cli::writeTree(m_world->copyTree(m_device), format, output);
+        output.finish();
+        is_written = true;
+        note("saved " + file.string());
+        if (format == "zvo" || format == "vox") // which can be opened again
+        {
+            m_saved_mark.save(editPoint());
+        }
+    }
+    catch (const std::exception& error)
+    {
+        cli::talkError(error);
+    }
+    m_frame_start = Clock::now();
+    return is_written;
+}
+
+void App::openDialog()
+{
+    const Files& files = m_world_options.voxels.scenes;
+    m_file_dialog.openToRead(files.empty() ? "." : files.front().parent_path(), kReadExtensions);
+}
+
+void App::saveDialog()
+{
+    if (!isMakingAWorld())
+    {
+        m_file_dialog.openToWrite(m_saved_file.parent_path(),
+                                  m_saved_file.empty() ? editedName() + ".zvo" : m_saved_file.filename().string(),
+                                  kWrittenExtensions);
+    }
+}
+
+// Returns whether a dialog is open.
+bool App::drawDialogs()
+{
+    if (const std::optional<std::filesystem::path> file = m_file_dialog.show())
+    {
+        if (!m_file_dialog.writes())
+        {
+            loadFiles({*file});
+        }
+        else if (write(*file, true) && cli::treeFormatOf(file->string()) == "zvo")
+        {
+            m_saved_file = *file; // by Ctrl+S from now on
+        }
+    }
+    if (m_after_loss)
+    {
+        if (const std::optional<LossAnswer> answer = lossQuestion())
+        {
+            const std::function<void()> action = std::exchange(m_after_loss, nullptr);
+            if (answer == LossAnswer::Discard || (answer == LossAnswer::Save && save()))
+            {
+                action();
+            }
+        }
+    }
+    return hasDialog();
+}
+
+bool App::hasDialog() const
+{
+    return m_file_dialog.isOpen() || m_after_loss;
+}
+
+// Does something by which strokes are lost; asks before, where there are such and somebody who can answer.
+void App::loseStrokes(std::function<void()> action)
+{
+    const bool has_user = !m_replay && !m_options.frame_count;
+    if (has_user && hasUnsaved())
+    {
+        m_after_loss = std::move(action);
+    }
+    else
+    {
+        action();
+    }
+}
+
+void App::quit()
+{
+    loseStrokes([this] { m_quits = true; });
+}
+
+void App::filesPanel()
+{
+    std::vector<Files> recent;
+    for (const SceneMemory& memory : m_settings.scenes)
+    {
+        recent.push_back(memory.files);
+    }
+    const FilesAnswer answer = demo::filesPanel(recent);
+    if (answer.opens)
+    {
+        openDialog();
+    }
+    if (answer.saves_as)
+    {
+        saveDialog();
+    }
+    if (answer.recent)
+    {
+        loadFiles(*answer.recent);
+    }
+}
+
+// Keeps how the scene is looked at, for when its files are opened again.
+void App::rememberScene()
+{
+    if (!m_is_first_world && !m_world_options.voxels.scenes.empty())
+    {
+        const TraceOptions& trace = m_view.frame.trace;
+        remember(m_settings.scenes, {absoluteFiles(m_world_options.voxels.scenes), m_camera.camera(), m_bookmarks,
+                                     trace.to_sun, m_view.frame.exposure.factor});
+    }
+}
+
+// Returns whether the scene was looked at before: then it is shown as it was.
+bool App::recallScene()
+{
+    const SceneMemory* const memory = recall(m_settings.scenes, absoluteFiles(m_world_options.voxels.scenes));
+    if (memory != nullptr)
+    {
+        m_camera.show(memory->camera);
+        m_camera.setSubject(m_world->subject);
+        m_bookmarks = memory->bookmarks;
+        m_view.frame.trace.to_sun = memory->to_sun;
+        m_view.frame.exposure.factor = memory->exposure;
+    }
+    return memory != nullptr;
+}
+
+} // namespace zvo::demo
