@@ -1,10 +1,16 @@
 // SPDX-License-Identifier: MIT
 // Parts of the demo that need no window: keys, settings, statistics, time, resolution, shader sources.
+#include "demo/app/saved_mark.h"
+#include "demo/app/scene_memory.h"
 #include "demo/app/settings.h"
 #include "demo/app/shader_sources.h"
 #include "demo/input/elapsed.h"
 #include "demo/input/keys.h"
+#include "demo/input/pointer_ray.h"
+#include "demo/input/sun_control.h"
 #include "demo/input/timeline.h"
+#include "demo/panels/brush_cursor.h"
+#include "demo/panels/file_dialog.h"
 #include "demo/panels/frame_stats.h"
 #include "demo/panels/notices.h"
 #include "demo/world/resolution_ladder.h"
@@ -96,6 +102,20 @@ TEST(Keys, PressesFindTheirRow)
     EXPECT_EQ(actionOf(Key::W, {}), Action::None);
 }
 
+SceneMemory memoryOf(const std::string& file, double x)
+{
+    SceneMemory memory;
+    memory.files = {file};
+    memory.camera = ViewCamera::lookAt({x, 2, 3}, {0, 0, 0.1}, 0.7);
+    memory.bookmarks[4] = ViewCamera::lookAt({x, 2, 3}, {9, 0, 0.1}, 0.3);
+    memory.bookmarks[8] = memory.camera;
+    memory.bookmarks[8]->orthographic = true;
+    memory.bookmarks[8]->half_height = 1.0 / 7.0;
+    memory.to_sun = {x, 1, 0};
+    memory.exposure = 1.3F;
+    return memory;
+}
+
 Settings otherSettings()
 {
     Settings settings;
@@ -111,6 +131,10 @@ Settings otherSettings()
     settings.view.frame.trace.detail_pixels = 2.6F;
     settings.view.internal_scale = 0.375;
     settings.view.present_mode = vk::PresentMode::Mailbox;
+    settings.view.frame.path.bounces = 3;
+    settings.view.map_sun = true;
+    settings.brush = {Tool::Camera, BrushAction::Paint, BrushShape::Box, 3, {0.25F, 1.0F / 3.0F, 1.0F}};
+    settings.scenes = {memoryOf("/a/b.glb", 1.0 / 3.0), memoryOf("/c d.zvo", -7)};
     return settings;
 }
 
@@ -147,6 +171,8 @@ TEST(Settings, ADamagedFileIsNotUsed)
                                           R"({"schema": "zvo.demo_settings/1", "view": {"view": "smell"}})",
                                           R"({"schema": "zvo.demo_settings/1", "view": {"sun": [0, 0, 0]}})",
                                           R"({"schema": "zvo.demo_settings/1", "view": {"exposure": -1}})",
+                                          R"({"schema": "zvo.demo_settings/1", "brush": {"action": "smell"}})",
+                                          R"({"schema": "zvo.demo_settings/1", "scenes": [{"files": ["a"]}]})",
                                           R"({"schema": "zvo.demo_settings/1", "more": 1})"};
     for (const std::string& text : bad)
     {
@@ -164,6 +190,103 @@ TEST(Settings, APlaceThatCannotBeWrittenToIsTold)
     testing::internal::CaptureStderr();
     writeSettings("/proc/nowhere/demo.json", Settings{});
     EXPECT_NE(testing::internal::GetCapturedStderr().find("warning: settings are not kept"), std::string::npos);
+}
+
+TEST(SceneMemory, TheLastSceneIsTheFirstAndTheOldestAreForgotten)
+{
+    std::vector<SceneMemory> memories;
+    for (std::size_t i = 0; i < SceneMemory::kMost + 3; ++i)
+    {
+        remember(memories, memoryOf("/" + std::to_string(i), 1));
+    }
+    EXPECT_EQ(memories.size(), SceneMemory::kMost);
+    EXPECT_EQ(recall(memories, {"/2"}), nullptr);
+    remember(memories, memoryOf("/5", 2));
+    EXPECT_EQ(memories.size(), SceneMemory::kMost) << "in place of the older one";
+    EXPECT_EQ(memories.front(), memoryOf("/5", 2));
+    ASSERT_NE(recall(memories, {"/7"}), nullptr);
+    EXPECT_EQ(*recall(memories, {"/7"}), memoryOf("/7", 1));
+    EXPECT_EQ(recall(memories, {"/7", "/8"}), nullptr) << "two files are another scene";
+}
+
+TEST(SavedMark, KnowsWhichStrokesAreInAFile)
+{
+    SavedMark mark;
+    EXPECT_TRUE(mark.holds({0, 0}));
+    EXPECT_FALSE(mark.holds({1, 5}));
+    EXPECT_TRUE(mark.holds({0, 5})) << "undone";
+    mark.save({2, 9});
+    EXPECT_TRUE(mark.holds({2, 9}));
+    EXPECT_FALSE(mark.holds({1, 9})) << "undone, but the file has it";
+    EXPECT_FALSE(mark.holds({0, 9}));
+    EXPECT_FALSE(mark.holds({2, 11})) << "undone, and something else in its place";
+    mark.reset();
+    EXPECT_TRUE(mark.holds({0, 0}));
+}
+
+TEST(SunControl, TheMouseMovesTheSunWhileLIsHeld)
+{
+    for (const glm::dvec3& to_sun : {glm::dvec3(-0.6, 0.75, 0.45), glm::dvec3(3, 0.1, -1)})
+    {
+        EXPECT_LT(glm::distance(toSun(sunAngles(to_sun)), glm::normalize(to_sun)), 1e-12);
+    }
+    EXPECT_NEAR(sunAngles({1, 1, 0}).azimuth, 90, 1e-9) << "x is east";
+    EXPECT_NEAR(sunAngles({1, 1, 0}).elevation, 45, 1e-9);
+    glm::dvec3 sun = {1, 1, 0};
+    SunControl control;
+    EXPECT_FALSE(control.handle(MouseMoveEvent{10, 10}, sun));
+    EXPECT_FALSE(control.handle(MouseMoveEvent{90, 10}, sun));
+    EXPECT_FALSE(control.handle(KeyEvent{Key::L, true, {}}, sun));
+    EXPECT_TRUE(control.handle(MouseMoveEvent{130, 30}, sun));
+    EXPECT_NEAR(sunAngles(sun).azimuth, 100, 1e-9);
+    EXPECT_NEAR(sunAngles(sun).elevation, 40, 1e-9);
+    control.handle(MouseMoveEvent{130, -9000}, sun);
+    EXPECT_NEAR(sunAngles(sun).azimuth, 100, 1e-6) << "not lost at the top";
+    control.handle(KeyEvent{Key::L, false, {}}, sun);
+    EXPECT_FALSE(control.handle(MouseMoveEvent{0, 0}, sun));
+}
+
+TEST(FileDialog, ListsFoldersFirstAndOnlyWhatCanBeRead)
+{
+    const test::TempDir folder;
+    for (const char* name : {"b.glb", "a.VOX", "text.txt", ".hidden.glb"})
+    {
+        folder.write(name, std::string_view("x"));
+    }
+    std::filesystem::create_directories(folder.path() / "z.folder");
+    const std::vector<FileEntry> expected = {{"z.folder", true}, {"a.VOX", false}, {"b.glb", false}};
+    EXPECT_EQ(listFolder(folder.path(), {".glb", ".vox"}), expected);
+    EXPECT_EQ(listFolder(folder.path(), {}).size(), 4U);
+    EXPECT_TRUE(listFolder(folder.path() / "nowhere", {}).empty());
+}
+
+// The grid's voxels are of size 1; the camera looks along -z onto the face of a voxel at z = 3.
+TEST(BrushPlace, FollowsThePointerAlongTheFaceThatWasFound)
+{
+    Grid grid;
+    grid.depth = 4;
+    grid.origin = {0, 0, 0};
+    grid.voxel_size = 1;
+    PointerView view;
+    view.camera.position = {8.5, 8.5, 24};
+    view.camera.vertical_fov = 0.8;
+    view.size = {200, 100};
+    InspectedPixel found;
+    EXPECT_FALSE(brushPlace(view, grid, found));
+    found.report.hit = 1;
+    found.report.level = grid.nodeLevels();
+    found.report.cell = {8, 8, 3};
+    found.report.face = 2;
+    const auto pointAt = [&](const glm::dvec3& point)
+    { view.pointer = pointOf(view.camera, point, view.size).value(); };
+    pointAt({8.5, 8.5, 4});
+    ASSERT_TRUE(brushPlace(view, grid, found));
+    EXPECT_EQ(brushPlace(view, grid, found)->voxel, glm::ivec3(8, 8, 3));
+    EXPECT_EQ(brushPlace(view, grid, found)->step, glm::ivec3(0, 0, 1));
+    pointAt({11.2, 6.7, 4});
+    EXPECT_EQ(brushPlace(view, grid, found)->voxel, glm::ivec3(11, 6, 3));
+    found.report.face = gpu::kFaceInside;
+    EXPECT_EQ(brushPlace(view, grid, found)->voxel, glm::ivec3(8, 8, 3));
 }
 
 TEST(History, TellsMeanAndTheValueThat95OfAHundredDoNotExceed)

@@ -92,6 +92,47 @@ TEST_F(DemoEditing, CarvesFillsAndPaintsAndUndoesToTheFirstPicture)
     }
 }
 
+// The camera looks straight onto a face of the cube.
+const std::string kFront = " --camera 0.5,0.5,3,0.5,0.5,0.5,30";
+
+TEST_F(DemoEditing, AStrokeOfOneStepHasNoGaps)
+{
+    Script script;
+    script.press(1, Key::F12).press(2, Key::B).press(3, Key::N).press(5, Key::N);
+    for (std::uint64_t i = 0; i < 7; ++i)
+    {
+        script.press(6 + 2 * i, Key::LeftBracket); // the radius is 1
+    }
+    const std::uint64_t frame = drag(script, 22, {{70, 40}, {170, 110}});
+    script.press(frame + 4, Key::F12);
+    play(script, frame + 8, kCube + kFront);
+    const Image before = pixels(shotName(1));
+    const Image after = pixels(shotName(2));
+    const auto differs = [&](std::size_t x, std::size_t y)
+    { return before.rgba[4 * (y * before.width + x)] != after.rgba[4 * (y * before.width + x)]; };
+    std::size_t count = 0;
+    for (std::size_t x = 70; x <= 170; ++x)
+    {
+        EXPECT_TRUE(differs(x, 40 + (x - 70) * 7 / 10)) << x;
+    }
+    for (std::size_t i = 0; i < after.rgba.size() / 4; ++i)
+    {
+        count += differs(i % before.width, i / before.width) ? 1 : 0;
+    }
+    EXPECT_LT(count, 2500U) << "a line, not more";
+}
+
+TEST_F(DemoEditing, TheColourIsThatUnderThePointerNow)
+{
+    Script script;
+    script.press(1, Key::F12).press(2, Key::B).press(3, Key::N).press(5, Key::N).add(6, MouseMoveEvent{2, 2});
+    script.add(8, MouseMoveEvent{120, 75}).press(8, Key::K); // at once
+    script.press(drag(script, 12, {{100, 60}, {140, 90}}) + 2, Key::F12);
+    play(script, 24, kCube + kFront);
+    const std::vector<std::string> shots = takeShots(2);
+    EXPECT_EQ(shots[1], shots[0]) << "painted in its own colour";
+}
+
 TEST_F(DemoEditing, WhatMovesGoesOnThroughWhatWasEdited)
 {
     // Four pictures: the first, carved, moved on, and undone; or the same without the stroke.

@@ -54,6 +54,8 @@ TEST_F(DemoWindow, PathsAddUpWhileNothingChanges)
     EXPECT_EQ(four, render(common + " --spp 4"));
     EXPECT_NE(one, four);
     EXPECT_EQ(shown(common + " --denoise", 2), render(common + " --denoise --spp 2"));
+    const std::string lens = " --bounces 2 --aperture 0.2 --focus 4 --environment none";
+    EXPECT_EQ(shown(common + lens, 1), render(common + lens + " --spp 1"));
     const std::string moving = "moving.scene.json --integrator path" + kCamera + kSize;
     const std::string third = shown(moving + " --json stats.json", 3);
     EXPECT_GT(jsonFile("stats.json")["mrays_per_second"], 0);
@@ -333,6 +335,7 @@ TEST_F(DemoWindow, SettingsAreKeptButForRunsOfSoManyFrames)
     show(kCube + play); // in a window of that size, flying from that view to the next
     EXPECT_EQ(jsonFile("config/zvo/demo.json")["window"]["width"], 240);
     EXPECT_EQ(jsonFile("config/zvo/demo.json")["view"]["view"], "normal");
+    EXPECT_EQ(jsonFile("config/zvo/demo.json")["scenes"].size(), 1U) << "the camera of the scene";
     m_dir.write("config/zvo/demo.json", std::string_view("{\"schema\": 7"));
     const Outcome outcome = runDemo(kCube + kSize + play);
     EXPECT_EQ(outcome.exit_code, 0);

@@ -137,6 +137,7 @@ private:
     void noteRedraw();
     [[nodiscard]] PictureState pictureState() const;
     [[nodiscard]] bool moves() const;
+    [[nodiscard]] bool hasSun() const;
     [[nodiscard]] bool isRefinedEnough() const;
     [[nodiscard]] double restSeconds() const;
     [[nodiscard]] std::size_t framesInFlight() const;

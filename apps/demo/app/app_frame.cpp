@@ -84,7 +84,7 @@ Picture App::pictureIn(PictureSize traced)
     Picture picture;
     picture.camera = m_camera.camera();
     picture.options = m_view.frame;
-    picture.has_sun = !m_has_map || m_view.map_sun;
+    picture.has_sun = hasSun();
     if (!m_options.fixed_step)
     {
         // So that denoising can begin and end without other samples.

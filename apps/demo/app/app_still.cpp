@@ -42,10 +42,16 @@ PictureState App::pictureState() const
     return state;
 }
 
+// Whether paths and cached light have a sun.
+bool App::hasSun() const
+{
+    return m_has_map ? m_view.map_sun : m_view.frame.trace.shadows;
+}
+
 // Whether frames must follow each other, whatever they show.
 bool App::moves() const
 {
-    return m_editor.isBusy() || m_world->scene.hasRequests() || m_flight.records();
+    return m_editor.wantsFrames() || m_world->scene.hasRequests() || m_flight.records();
 }
 
 // Seconds to wait for input before the next frame.

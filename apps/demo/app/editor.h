@@ -43,7 +43,7 @@ public:
     void perform(Action action);
 
     /// Whether frames must follow each other for a tool.
-    [[nodiscard]] bool isBusy() const { return m_stroke.isActive() || m_drag || m_color_at; }
+    [[nodiscard]] bool wantsFrames() const { return m_stroke.isActive() || m_drag || m_color_at; }
 
     /// Takes the points at which the next frame is to look.
     EditorLooks takeLooks();

@@ -195,8 +195,13 @@ void showDenoise(ViewState& view, const ViewInfo&)
     }
 }
 
-void showShadows(ViewState& view, const ViewInfo&)
+void showShadows(ViewState& view, const ViewInfo& info)
 {
+    if (info.has_map && view.frame.integrator != Integrator::Primary)
+    {
+        ImGui::Checkbox("sun", &view.map_sun);
+        return;
+    }
     ImGui::Checkbox(view.frame.integrator == Integrator::Primary ? "shadows" : "sun", &view.frame.trace.shadows);
 }
 
@@ -210,12 +215,8 @@ void showOcclusion(ViewState& view, const ViewInfo&)
     }
 }
 
-void showSun(ViewState& view, const ViewInfo& info)
+void showSun(ViewState& view, const ViewInfo&)
 {
-    if (info.has_map)
-    {
-        ImGui::Checkbox("sun beside the map", &view.map_sun);
-    }
     const SunAngles before = sunAngles(view.frame.trace.to_sun);
     auto azimuth = static_cast<float>(before.azimuth);
     auto elevation = static_cast<float>(before.elevation);

@@ -18,8 +18,9 @@ struct PictureState
     FrameOptions options; // without those of its development
     PictureSize window;
     std::uint64_t tree_version = 0;
-    double seconds = 0;              // of the scene
-    std::uint64_t light_version = 0; // of all but options
+    double seconds = 0; // of the scene
+    std::uint64_t sky_version = 0;
+    bool has_sun = true; // of paths and cached light
 
     bool operator==(const PictureState&) const = default;
 };

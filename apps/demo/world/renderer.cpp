@@ -61,7 +61,7 @@ std::optional<std::uint32_t> Renderer::cacheFrames() const
 FrameSubject Renderer::begin(const DeviceTree& tree, const TraceCamera& camera, const Picture& picture)
 {
     const TraceOptions& options = m_options.trace;
-    const double strength = options.shadows && picture.has_sun ? options.sun : 0.0;
+    const double strength = picture.has_sun ? options.sun : 0.0;
     m_sky.setSun({.direction = options.to_sun, .irradiance = strength * kSunColor});
     if (picture.edited && usesCache(integrator()))
     {

@@ -25,7 +25,7 @@ struct Picture
     FrameOptions options;
     PictureSize size;
     PictureSize window;          // in which it is shown
-    bool has_sun = true;         // where options do not say otherwise
+    bool has_sun = true;         // of paths and cached light
     PixelProbe* probe = nullptr; // finds what the rays of single pixels meet; may be null
     /// Gets what tells how many rays the paths have (rayCountOf()), [Renderer::rayListElements()]; may be null.
     vk::BufferOf<gpu::DispatchArgs>* ray_lists = nullptr;
