@@ -6,7 +6,10 @@
 #include "core/tree/tree_data.h"
 #include "vk/headless.h"
 
+#include <cstdint>
 #include <filesystem>
+#include <functional>
+#include <span>
 
 namespace zvo::cli
 {
@@ -14,9 +17,20 @@ namespace zvo::cli
 /// Whether a file, by its name, is a .vox file of MagicaVoxel.
 bool isVoxFile(const std::filesystem::path& path);
 
-/// The octree of the voxels in a .vox file, with attributes of nodes, which the device computes. Reports what was left
-/// out. Throws Error{Input}, and Error{Memory} when the device's budget does not suffice.
+/// Whether a file holds voxels in place of triangles: a .zvo or .vox file.
+bool isTreeFile(const std::filesystem::path& path);
+
+/// The octree of the voxels in the bytes of a .vox file, without attributes of nodes. Reports what was left out. path:
+/// of messages. Throws Error{Input}.
+TreeData treeOfVox(std::span<const std::uint8_t> bytes, const std::filesystem::path& path);
+
+/// The same of a file, with attributes of nodes, which the device computes. Throws Error{Memory}, too, when the
+/// device's budget does not suffice.
 TreeData loadVox(const std::filesystem::path& path, vk::HeadlessDevice& device);
+
+/// The tree of a .zvo or .vox file. device: called where one is needed, for .vox files. Throws as loadVox() and
+/// readZvo().
+TreeData loadTree(const std::filesystem::path& path, const std::function<vk::HeadlessDevice&()>& device);
 
 /// The box around a tree's voxels in world space; empty where there are none.
 Bounds boundsOf(const TreeData& tree);

@@ -103,7 +103,7 @@ struct InspectOptions
     bool json = false;
 };
 
-/// `zvo inspect`: checks a .zvo file and reports its contents on standard output. Throws Error{Input}.
+/// `zvo inspect`: checks a .zvo or .vox file and reports its contents on standard output. Throws Error{Input}.
 void inspect(const InspectOptions& options);
 
 struct ValidateOptions
@@ -111,8 +111,8 @@ struct ValidateOptions
     std::filesystem::path file;
 };
 
-/// `zvo validate`: checks a .zvo file, and that the nodes of a DAG differ; reports a sound file on standard output.
-/// Throws Error{Input}.
+/// `zvo validate`: checks a .zvo or .vox file, and that the nodes of a DAG differ; reports a sound file on standard
+/// output. Throws Error{Input}.
 void validate(const ValidateOptions& options);
 
 struct ConvertOptions

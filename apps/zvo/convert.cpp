@@ -47,26 +47,19 @@ void convert(const ConvertOptions& options)
     const std::string format = formatOf(options);
     checkPaths(options.output, std::span(&options.file, 1));
     Output output(options.output.path, options.output.overwrite);
-    const bool is_vox = isVoxFile(options.file);
-    if (!is_vox && !isZvoFile(options.file))
+    if (!isTreeFile(options.file))
     {
         throw inputError(options.file, "neither a .zvo nor a .vox file; zvo build makes .zvo files of scenes");
     }
     Progress progress(2);
     progress.begin("loading");
     std::shared_ptr<vk::HeadlessDevice> device; // only for what needs one
-    const auto needDevice = [&]
+    const auto needDevice = [&]() -> vk::HeadlessDevice&
     {
-        if (!device)
-        {
-            device = openDevice(options.device);
-        }
+        device = device ? device : openDevice(options.device);
+        return *device;
     };
-    if (is_vox)
-    {
-        needDevice();
-    }
-    TreeData tree = is_vox ? loadVox(options.file, *device) : readZvo(options.file).tree;
+    TreeData tree = loadTree(options.file, needDevice);
     if (format == "zvo" && tree.structure != options.structure)
     {
         if (tree.structure == TreeStructure::Svdag)
@@ -75,8 +68,7 @@ void convert(const ConvertOptions& options)
                                                       "--structure out",
                                                       options.file.string()));
         }
-        needDevice();
-        tree = compressTree(*device, std::move(tree));
+        tree = compressTree(needDevice(), std::move(tree));
     }
     progress.begin("writing");
     writeTree(tree, format, output);

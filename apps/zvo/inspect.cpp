@@ -3,6 +3,7 @@
 
 #include "common/output.h"
 #include "common/report.h"
+#include "common/tree_input.h"
 #include "core/base/input_error.h"
 #include "core/base/read_file.h"
 #include "core/file/tree_stats.h"
@@ -41,9 +42,21 @@ std::string fileSha256(const std::filesystem::path& path)
     return sha.hexDigest();
 }
 
-// A file with its digest. A file that is not regular is read once.
-std::pair<ZvoFile, std::string> readWithSha256(const std::filesystem::path& path)
+struct Inspected
 {
+    ZvoFile file; // of a .vox file the tree alone
+    std::string sha256;
+    bool is_vox = false;
+};
+
+// A file with its digest. A file that is not regular is read once.
+Inspected readWithSha256(const std::filesystem::path& path)
+{
+    if (isVoxFile(path))
+    {
+        const std::vector<std::uint8_t> bytes = readFile(path);
+        return {{{}, {}, treeOfVox(bytes, path)}, sha256Hex(std::as_bytes(std::span(bytes))), true};
+    }
     std::error_code failure;
     if (std::filesystem::is_regular_file(path, failure))
     {
@@ -51,7 +64,8 @@ std::pair<ZvoFile, std::string> readWithSha256(const std::filesystem::path& path
         return {std::move(file), fileSha256(path)};
     }
     const std::vector<std::uint8_t> bytes = readFile(path);
-    return {readZvo(std::as_bytes(std::span(bytes)), path), sha256Hex(std::as_bytes(std::span(bytes)))};
+    const auto read = std::as_bytes(std::span(bytes));
+    return {readZvo(read, path), sha256Hex(read)};
 }
 
 double perVoxel(std::uint64_t bytes, const TreeData& tree)
@@ -83,11 +97,15 @@ Json inspectJson(const TreeData& tree, const TreeStats& stats, const std::string
     return json;
 }
 
-std::string attributesText(const TreeData& tree)
+std::string attributesText(const TreeData& tree, bool is_vox)
 {
     if (!tree.hasAttributes())
     {
         return "none";
+    }
+    if (is_vox)
+    {
+        return "colour; faces have the normals";
     }
     return fmt::format("form {}: colour{} normal{}, {:.3f} bytes a voxel", formatName(tree.attributeFormat()),
                        tree.emission.empty() ? " and" : ",",
@@ -95,19 +113,23 @@ std::string attributesText(const TreeData& tree)
                        perVoxel(tree.attributeBytes(), tree));
 }
 
-std::string summaryText(const ZvoFile& file, const std::string& sha256)
+std::string summaryText(const Inspected& inspected)
 {
+    const auto& [file, sha256, is_vox] = inspected;
     const TreeData& tree = file.tree;
     std::string text;
     const auto add = [&text](const char* label, const std::string& value)
     { text += fmt::format("{:<12}{}\n", label, value); };
-    add("structure", structureName(tree.structure));
-    add("version", fmt::format("{}.{}", file.header.version_major, file.header.version_minor));
+    add("structure", is_vox ? "voxels of MagicaVoxel, as an octree" : structureName(tree.structure));
+    if (!is_vox)
+    {
+        add("version", fmt::format("{}.{}", file.header.version_major, file.header.version_minor));
+    }
     add("grid", fmt::format("{}^3 from ({}, {}, {}) on, voxels of {}", tree.grid.resolution(), tree.grid.origin.x,
                             tree.grid.origin.y, tree.grid.origin.z, tree.grid.voxel_size));
     add("voxels", fmt::format("{}", tree.voxel_count));
     add("nodes", fmt::format("{} for the {} of the octree", tree.nodes.size(), tree.octree_node_count));
-    add("attributes", attributesText(tree));
+    add("attributes", attributesText(tree, is_vox));
     add("sha256", sha256);
     return text;
 }
@@ -134,12 +156,12 @@ std::string sectionsText(const ZvoFile& file)
     return text;
 }
 
-std::string bytesText(const TreeData& tree, const TreeStats& stats)
+std::string bytesText(const TreeData& tree, const TreeStats& stats, bool is_vox)
 {
     std::string text = fmt::format("\n{:<32}{:>14}{:>16}{:>16}\n", "geometry", "nodes", "bytes", "bytes a voxel");
     const auto add = [&](const std::string& what, std::uint64_t nodes, std::uint64_t bytes)
     { text += fmt::format("{:<32}{:>14}{:>16}{:>16.3f}\n", what, nodes, bytes, perVoxel(bytes, tree)); };
-    add("this file", tree.nodes.size(), tree.geometryBytes());
+    add(is_vox ? "zvo's octree" : "this file", tree.nodes.size(), tree.geometryBytes());
     if (tree.rankBytes() != 0)
     {
         add("... with ranks, for attributes", tree.nodes.size(), tree.geometryBytes() + tree.rankBytes());
@@ -154,18 +176,19 @@ std::string bytesText(const TreeData& tree, const TreeStats& stats)
 
 void inspect(const InspectOptions& options)
 {
-    const auto [file, sha256] = readWithSha256(options.file);
+    const Inspected inspected = readWithSha256(options.file);
+    const auto& [file, sha256, is_vox] = inspected;
     const TreeStats stats = treeStats(file.tree);
     Output output("-", true);
     output.write(options.json ? jsonText(inspectJson(file.tree, stats, sha256))
-                              : summaryText(file, sha256) + levelsText(file.tree, stats) + sectionsText(file) +
-                                    bytesText(file.tree, stats));
+                              : summaryText(inspected) + levelsText(file.tree, stats) +
+                                    (is_vox ? "" : sectionsText(file)) + bytesText(file.tree, stats, is_vox));
 }
 
 void validate(const ValidateOptions& options)
 {
-    const ZvoFile file = readZvo(options.file);
-    const TreeData& tree = file.tree;
+    const TreeData tree =
+        isVoxFile(options.file) ? treeOfVox(readFile(options.file), options.file) : readZvo(options.file).tree;
     const TreeStats stats = treeStats(tree);
     for (std::size_t level = 0; level < tree.levels.size() && tree.structure == TreeStructure::Svdag; ++level)
     {

@@ -8,7 +8,6 @@
 #include "common/tree_input.h"
 #include "common/view.h"
 #include "core/base/kernels.h"
-#include "core/file/zvo_file.h"
 #include "core/tree/device_tree.h"
 #include "io/scene/camera_path.h"
 #include "pictures.h"
@@ -67,6 +66,8 @@ public:
           m_opened(openDevice(options.device)), m_renderer(m_device, options), m_report(options, m_device)
     {
     }
+
+    [[nodiscard]] vk::HeadlessDevice& device() { return m_device; }
 
     // Shows a static scene; the camera orbits or flies.
     void turn(Scene&& scene, const Grid& grid, const ViewCamera& camera, const glm::dvec3& center)
@@ -227,18 +228,14 @@ private:
     bool m_has_warned = false;          // of dropped triangles, which may occur in every frame
 };
 
-bool hasZvoFile(const VoxelOptions& options)
-{
-    return std::any_of(options.scenes.begin(), options.scenes.end(), isZvoFile);
-}
-
 void renderTree(const RenderOptions& options, const CameraWork& camera_work, Pictures& pictures,
                 std::optional<Output>& report)
 {
     checkTreeOptions(options);
     Progress progress(2 + pictures.count());
     progress.begin("loading");
-    TreeData tree = readZvo(options.voxels.scenes.front()).tree;
+    RenderRun run(options, camera_work, pictures, progress);
+    TreeData tree = loadTree(options.voxels.scenes.front(), [&run]() -> vk::HeadlessDevice& { return run.device(); });
     if (tree.voxel_count == 0)
     {
         talk("warning: the file has no voxels");
@@ -246,7 +243,6 @@ void renderTree(const RenderOptions& options, const CameraWork& camera_work, Pic
     const Bounds subject = subjectOf(boundsOf(tree), tree.grid);
     const ViewCamera camera =
         chooseCamera(options.camera, Scene(), subject, static_cast<double>(options.width) / options.height);
-    RenderRun run(options, camera_work, pictures, progress);
     run.turn(std::move(tree), camera, 0.5 * (glm::dvec3(subject.min) + glm::dvec3(subject.max)));
     run.finish(report);
 }
@@ -270,7 +266,7 @@ void render(const RenderOptions& options)
     pictures.checkInputs(inputs);
     const CameraWork camera_work(options);
     std::optional<Output> report = openReport(options.output);
-    if (hasZvoFile(options.voxels))
+    if (std::ranges::any_of(options.voxels.scenes, isTreeFile))
     {
         renderTree(options, camera_work, pictures, report);
         return;

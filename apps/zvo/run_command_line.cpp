@@ -7,6 +7,7 @@
 #include "common/output.h"
 #include "common/parse.h"
 #include "common/run_program.h"
+#include "common/tree_input.h"
 #include "common/view.h"
 #include "zvo/error.h"
 
@@ -46,6 +47,7 @@ Examples:
   zvo render scenes/atrium.glb -o 'fly_####.png' --camera-path flight.json --frames 0..89
   zvo render scenes/cornell_box.glb -o box.png --integrator path --spp 256
   zvo render bunny.zvo -o bunny.png
+  zvo render castle.vox -o castle.png
   zvo render scenes/sponza_bunny.scene.json -o later.png --scenes ../models --time 1.5)";
 
 constexpr const char* kVoxelizeFooter = R"(
@@ -73,6 +75,7 @@ take, with nodes of 2x2x2 cells: an octree with 36 bytes a node, and a DAG with 
 
 Examples:
   zvo inspect bunny.zvo
+  zvo inspect castle.vox
   zvo inspect bunny.zvo --json | jq .geometry_bytes_per_voxel)";
 
 constexpr const char* kValidateFooter =
@@ -140,7 +143,7 @@ void addPathOptions(CLI::App& render, RenderOptions& options)
 
 void addOptions(CLI::App& render, RenderOptions& options)
 {
-    addVoxelOptions(render, options.voxels, "; or one .zvo file, which needs no voxelizing");
+    addVoxelOptions(render, options.voxels, "; or one .zvo or .vox file, which needs no voxelizing");
     addAttributesOption(render, options.voxels.attributes);
     render
         .add_option_function<std::string>(
@@ -217,13 +220,13 @@ void addOptions(CLI::App& build, BuildFileOptions& options)
 
 void addOptions(CLI::App& inspect, InspectOptions& options)
 {
-    inspect.add_option("FILE", options.file, "a .zvo file")->required()->type_name("FILE");
+    inspect.add_option("FILE", options.file, "a .zvo or .vox file")->required()->type_name("FILE");
     inspect.add_flag("--json", options.json, "as JSON");
 }
 
 void addOptions(CLI::App& validate, ValidateOptions& options)
 {
-    validate.add_option("FILE", options.file, "a .zvo file")->required()->type_name("FILE");
+    validate.add_option("FILE", options.file, "a .zvo or .vox file")->required()->type_name("FILE");
 }
 
 void addOptions(CLI::App& convert, ConvertOptions& options)
@@ -259,7 +262,8 @@ void checkTreeOptions(const RenderOptions& options)
     const VoxelOptions plain;
     if (voxels.scenes.size() > 1)
     {
-        throw Error(ErrorCode::Usage, "a .zvo file stands alone; build one of all that is to be seen");
+        throw Error(ErrorCode::Usage, fmt::format("{} stands alone; build one .zvo file of all that is to be seen",
+                                                  std::ranges::find_if(voxels.scenes, isTreeFile)->string()));
     }
     const std::pair<const char*, bool> given[] = {
         {"--up", voxels.load.up != plain.load.up},
@@ -364,8 +368,8 @@ int runCommandLine(int argc, const char* const* argv)
             commands.add("voxelize", "voxelize scenes and write the voxels", kVoxelizeFooter, addOptions, voxelize);
             commands.add("build", "voxelize scenes and write the tree to a .zvo file", kBuildFooter, addOptions,
                          buildFile);
-            commands.add("inspect", "tell what is in a .zvo file", kInspectFooter, addOptions, inspect);
-            commands.add("validate", "check everything in a .zvo file", kValidateFooter, addOptions, validate);
+            commands.add("inspect", "tell what is in a .zvo or .vox file", kInspectFooter, addOptions, inspect);
+            commands.add("validate", "check everything in a .zvo or .vox file", kValidateFooter, addOptions, validate);
             commands.add("convert", "make another kind of file of a .zvo or .vox file", kConvertFooter, addOptions,
                          convert);
             commands.add("info", "list the Vulkan devices and what they offer", kInfoFooter, addOptions, info);

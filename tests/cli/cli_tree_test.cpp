@@ -8,6 +8,7 @@
 #include <chrono>
 #include <csignal>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <sys/resource.h>
 #include <thread>
 
@@ -181,6 +182,45 @@ TEST_F(CliTree, VoxFilesComeBackWithTheirVoxelsAndColors)
     EXPECT_EQ(shaOf("back.vox"), shaOf("cube.vox"));
 }
 
+// A .vox file has no normals, so the only ones in the picture are those of the faces that the camera sees.
+TEST_F(CliTree, VoxFilesAreShownByTheirFaces)
+{
+    buildBoth();
+    run("convert svo.zvo -o cube.vox");
+    const std::string camera = " --size 96x64 --camera 72,90,108,18,18,18 ";
+    run("render cube.vox -o normals.png --view normal" + camera);
+    const Image normals = pixels("normals.png");
+    std::set<std::uint32_t> colors;
+    for (std::size_t i = 0; i < normals.rgba.size(); i += 4)
+    {
+        colors.insert(normals.rgba[i] | normals.rgba[i + 1] << 8U | normals.rgba[i + 2] << 16U);
+    }
+    EXPECT_EQ(colors.size(), 4U); // of +x, +y, +z and the background
+    run("render cube.vox -o vox.png" + camera);
+    run("convert cube.vox -o back.zvo --structure svo");
+    run("render back.zvo -o back.png" + camera);
+    EXPECT_TRUE(file("vox.png") == file("back.png"));
+}
+
+TEST_F(CliTree, VoxFilesAreInspectedAndValidated)
+{
+    buildBoth();
+    run("convert svo.zvo -o cube.vox");
+    const json report = inspected("cube.vox");
+    const json tree = inspected("svo.zvo");
+    EXPECT_EQ(report["voxels"], tree["voxels"]);
+    EXPECT_EQ(report["sha256"], shaOf("cube.vox"));
+    EXPECT_EQ(report["grid"]["voxel_size"], 1.0);
+    const std::string text = run("inspect cube.vox").out;
+    EXPECT_TRUE(contains(text, "MagicaVoxel")) << text;
+    EXPECT_FALSE(contains(text, "version")) << text;
+    EXPECT_TRUE(contains(run("validate cube.vox").out, "sound"));
+    run("build cube.glb -o empty.zvo --resolution 32 --bounds 5,5,5,6,6,6");
+    run("convert empty.zvo -o empty.vox");
+    EXPECT_TRUE(contains(run("render empty.vox -o empty.png --size 16x16").err, "no voxels"));
+    EXPECT_EQ(inspected("empty.vox")["voxels"], 0);
+}
+
 TEST_F(CliTree, MeshesOfVoxelsCanBeVoxelized)
 {
     buildBoth();
@@ -220,6 +260,12 @@ TEST_F(CliTree, RefusalsAreOneLineWithTheirExitCode)
         {"convert cube.glb -o a.ply", 3, "neither a .zvo nor a .vox file"},
         {"convert broken.vox -o a.zvo", 3, "cut short"},
         {"voxelize svo.zvo -o a.ply", 3, "voxels and no triangles"},
+        {"build broken.vox -o a.zvo", 3, "zvo convert"},
+        {"render broken.vox -o a.png", 3, "cut short"},
+        {"inspect broken.vox", 3, "cut short"},
+        {"validate broken.vox", 3, "cut short"},
+        {"render broken.vox -o a.png --resolution 64", 2, "--resolution does not go with broken.vox"},
+        {"render cube.glb broken.vox -o a.png", 2, "broken.vox stands alone"},
         {"convert svo.zvo -o a.stl", 2, ".morton"},
         {"convert svo.zvo -o svo.zvo -f", 2, "overwritten"},
         {"convert svdag.zvo -o a.zvo --structure svo", 2, "cannot become an octree"},

@@ -37,8 +37,8 @@ std::uint32_t normalCode(const glm::ivec3& n)
     const glm::ivec3 size = glm::abs(n);
     const int bits = std::bit_width(static_cast<unsigned>(size.x | size.y | size.z));
     const glm::ivec3 cut = size / (1 << std::max(bits - 15, 0));
-    const std::uint32_t upper = octahedralCode(cut);
-    glm::ivec2 p(static_cast<int>(upper & 0xFFFFU), static_cast<int>(upper >> 16));
+    const int sum = std::max(cut.x + cut.y + cut.z, 1);
+    glm::ivec2 p((cut.x * 32767 + sum / 2) / sum, (cut.y * 32767 + sum / 2) / sum);
     p = n.z < 0 ? glm::ivec2(32767 - p.y, 32767 - p.x) : p;
     p *= glm::ivec2(n.x < 0 ? -1 : 1, n.y < 0 ? -1 : 1);
     return (static_cast<std::uint32_t>(p.x) & 0xFFFFU) | static_cast<std::uint32_t>(p.y) << 16;

@@ -6,7 +6,6 @@
 
 #include <bit>
 #include <cassert>
-#include <cstdlib>
 
 namespace zvo
 {
@@ -103,32 +102,10 @@ void addColors(TreeData& octree, std::span<const std::uint32_t> colors)
     assert(colors.size() == octree.voxel_count);
     constexpr std::uint32_t kColorMask = 0xffffffU;
     octree.voxel_attributes.reserve(colors.size());
-    forEachVoxel(octree,
-                 [&](std::uint64_t code)
-                 {
-                     const glm::ivec3 cell(cellOfCode(code));
-                     glm::ivec3 normal(0);
-                     for (int i = 0; i < 27; ++i)
-                     {
-                         const glm::ivec3 step(i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1);
-                         normal -= step * (i != 13 && hasVoxel(octree, cell + step) ? 1 : 0);
-                     }
-                     const std::uint32_t color = colors[octree.voxel_attributes.size()] & kColorMask;
-                     const bool is_thin = normal == glm::ivec3(0); // as many neighbours on each side
-                     octree.voxel_attributes.push_back({color, is_thin ? gpu::kNoNormal : octahedralCode(normal)});
-                 });
-}
-
-std::uint32_t octahedralCode(const glm::ivec3& v)
-{
-    constexpr int kOne = 32767; // 1 as a snorm16
-    const glm::ivec3 size = glm::abs(v);
-    const int sum = std::max(size.x + size.y + size.z, 1);
-    glm::ivec2 p((size.x * kOne + sum / 2) / sum, (size.y * kOne + sum / 2) / sum);
-    p = v.z < 0 ? glm::ivec2(kOne - p.y, kOne - p.x) : p;
-    p.x = v.x < 0 ? -p.x : p.x;
-    p.y = v.y < 0 ? -p.y : p.y;
-    return (static_cast<std::uint32_t>(p.x) & 0xffffU) | static_cast<std::uint32_t>(p.y) << 16;
+    for (const std::uint32_t color : colors)
+    {
+        octree.voxel_attributes.push_back({color & kColorMask, gpu::kNoNormal});
+    }
 }
 
 } // namespace zvo

@@ -17,12 +17,8 @@ bool hasVoxel(const TreeData& tree, const glm::ivec3& cell);
 /// 8^grid.depth. Throws Error{Memory} for 2^32 voxels or nodes and more.
 TreeData octreeOfVoxels(const Grid& grid, std::span<const std::uint64_t> codes);
 
-/// Gives the voxels of an octree colours, and normals that point from the side where most of a voxel's 26 neighbours
-/// are to the opposite side; kNoNormal where there are as many on all sides. colors: [voxel_count] sRGB red | green <<
-/// 8 | blue << 16. Nodes get no attributes.
+/// Gives the voxels of an octree colours, and no normals: pictures take those of their faces. colors: [voxel_count]
+/// sRGB red | green << 8 | blue << 16. Nodes get no attributes.
 void addColors(TreeData& octree, std::span<const std::uint32_t> colors);
-
-/// Octahedral code of v's direction, as shaders/lib/normal.glsl makes it. v: components of less than 2^15 in size.
-std::uint32_t octahedralCode(const glm::ivec3& v);
 
 } // namespace zvo

@@ -104,7 +104,13 @@ Scene loadFile(const std::filesystem::path& path, ImageDecoding decoding)
         throw inputError(path, "a .zvo file holds voxels and no triangles; zvo render and zvo convert take it");
     }
     std::vector<std::uint8_t> bytes = readFile(path);
-    const std::optional<FileFormat> format = formatOf(bytes, lowerExtension(path));
+    const std::string extension = lowerExtension(path);
+    if (extension == ".vox")
+    {
+        throw inputError(path, "a .vox file holds voxels and no triangles; zvo render shows it, zvo convert a.vox -o "
+                               "a.zvo makes a tree of it");
+    }
+    const std::optional<FileFormat> format = formatOf(bytes, extension);
     if (!format)
     {
         throw inputError(path,

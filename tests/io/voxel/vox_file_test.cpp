@@ -325,30 +325,5 @@ TEST(TreeBuild, HasVoxelKnowsAllAndNoOthers)
     }
 }
 
-// In a full block, faces have outward normals, which are exact in the middle of each face.
-TEST(TreeBuild, NormalsLookOutwards)
-{
-    std::vector<std::uint64_t> codes(1 << 9);
-    for (std::size_t i = 0; i < codes.size(); ++i)
-    {
-        codes[i] = i;
-    }
-    Grid grid;
-    grid.depth = 3;
-    TreeData tree = octreeOfVoxels(grid, codes);
-    addColors(tree, std::vector<std::uint32_t>(codes.size(), 0xff123456U));
-    const auto at = [&](const glm::uvec3& cell) { return tree.voxel_attributes[codeOfCell(cell)]; };
-    EXPECT_EQ(at({7, 3, 4}).normal, octahedralCode({1, 0, 0}));
-    EXPECT_EQ(at({0, 3, 4}).normal, octahedralCode({-1, 0, 0}));
-    EXPECT_EQ(at({3, 3, 7}).normal, octahedralCode({0, 0, 1}));
-    EXPECT_EQ(at({3, 3, 0}).normal, octahedralCode({0, 0, -1}));
-    EXPECT_EQ(at({7, 7, 7}).normal, octahedralCode({1, 1, 1}));
-    EXPECT_EQ(at({3, 3, 3}).normal, gpu::kNoNormal);
-    EXPECT_EQ(at({7, 7, 7}).color, 0x123456U);
-    EXPECT_EQ(octahedralCode({1, 0, 0}), 32767U);
-    EXPECT_EQ(octahedralCode({0, -1, 0}), 0x8001U << 16);
-    EXPECT_EQ(octahedralCode({0, 0, 0}), 0U);
-}
-
 } // namespace
 } // namespace zvo::test
