@@ -25,7 +25,8 @@ double luminanceOf(const glm::dvec3& color)
     return glm::dot(color, glm::dvec3(0.2126, 0.7152, 0.0722));
 }
 
-// The automatic exposure (docs/light.md).
+// Makes the mean brightness, in stops, 0.2. Exposure and curve are the measure's own, so that its results can be compared
+// with earlier ones, however pictures are developed.
 double exposureFor(const HdrImage& picture)
 {
     std::vector<double> stops; // of pixels with light
@@ -44,7 +45,7 @@ double exposureFor(const HdrImage& picture)
     return stops.empty() ? 1.0 : 0.2 / std::exp2(sum / static_cast<double>(end - first));
 }
 
-// sRGB codes in [0, 1] (shaders/lib/color.glsl).
+// sRGB codes in [0, 1], by the curve of K. Narkowicz, ACES Filmic Tone Mapping Curve, 2015.
 std::vector<glm::dvec3> codesOf(const HdrImage& picture, double exposure)
 {
     std::vector<glm::dvec3> codes;

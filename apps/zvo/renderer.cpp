@@ -240,6 +240,7 @@ std::vector<std::uint8_t> Renderer::encodeSamples(PictureTimes& times)
     }
     m_device.run([&](vk::FrameGraph& graph) { m_renderer.develop(graph, m_frame); });
     times.exposure = m_device.download(m_renderer.exposure()).front();
+    m_frame.exposure = {.automatic = false, .factor = *times.exposure}; // of a sequence, which would flicker otherwise
     return encodePicture();
 }
 

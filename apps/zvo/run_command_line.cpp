@@ -168,7 +168,7 @@ void addOptions(CLI::App& render, RenderOptions& options)
         render, "--exposure", options.frame.exposure,
         [](std::string_view option, std::string_view text)
         { return Exposure{.automatic = false, .factor = static_cast<float>(parsePositive(option, text))}; },
-        "FACTOR", "brightness of the picture (default 1; for paths, so that it is neither dark nor bright)");
+        "FACTOR", "brightness of the picture (default 1; of samples by the first picture)");
     addValue(render, "--detail", options.frame.trace.detail_pixels, parsePositive, "PIXELS",
              "rays stop at octree nodes up to this many pixels wide (default: they go on to voxels)");
     addValue(render, "--frames", options.frames, parseFrames, "A..B",

@@ -56,7 +56,7 @@ struct PathInfo
     bool denoise = false;        // filters out the noise of few samples; each picture has its own random numbers
 
     // Another value of these does not begin anew.
-    bool automatic_exposure = true; // the pixels' mean brightness, in stops, becomes middle grey before exposure counts
+    bool automatic_exposure = true; // by the picture's brightness, which is not known before (docs/light.md), times:
     float exposure = 1.0F;          // factor
     std::uint32_t samples = 1;      // paths of each pixel that a call adds, 1 to 1024
     std::uint32_t history_max = 16; // denoise: samples of earlier pictures that count at most in a pixel; 0: none

@@ -20,7 +20,7 @@ HdrImage evenPicture(float radiance)
     return {8, 6, std::vector(48, glm::vec3(radiance))};
 }
 
-// The sRGB code in [0, 1] of radiance that the exposure makes `grey` (docs/light.md).
+// The sRGB code in [0, 1] of radiance that the exposure makes `grey` (apps/bench/picture_quality.cpp).
 double codeOf(double grey)
 {
     const double x = 0.6 * grey;

@@ -136,6 +136,7 @@ TEST_F(CliPath, TheReportTellsHowPathsWereTraced)
     const json sequence = reported("-o s_#.png --frames 4..5");
     ASSERT_EQ(sequence["pictures"].size(), 2U);
     EXPECT_EQ(sequence["pictures"][1]["frame"], 5);
+    EXPECT_EQ(sequence["pictures"][1]["exposure"], sequence["pictures"][0]["exposure"]) << "it would flicker";
     EXPECT_EQ(sequence["pictures"][1]["samples"], 2);
 }
 

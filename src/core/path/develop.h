@@ -24,7 +24,7 @@ struct SampledPicture
 /// How bright a picture is.
 struct Exposure
 {
-    /// The mean of the pixels' brightness, in stops, becomes middle grey before the factor is applied.
+    /// By the pixels' brightness (shaders/path/expose.comp), before the factor is applied.
     bool automatic = true;
     float factor = 1.0F;
 
