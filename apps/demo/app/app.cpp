@@ -58,15 +58,25 @@ ViewState viewOf(const DemoOptions& options, const Settings& settings)
     return view;
 }
 
-// Begins a window of panels in the upper left or right corner. ImGui::End() ends it, whether or not it is open.
+// Begins a window of panels at the left or right edge, of at most about half the width. ImGui::End() ends it, whether
+// or not it is open.
 bool beginPanels(const char* title, bool is_right)
 {
-    constexpr float kMargin = 10;
-    const float width = ImGui::GetMainViewport()->WorkSize.x;
-    ImGui::SetNextWindowPos({is_right ? width - kMargin : kMargin, kMargin}, ImGuiCond_Always,
+    const float margin = 0.7F * ImGui::GetFontSize();
+    const ImVec2 size = ImGui::GetMainViewport()->WorkSize;
+    ImGui::SetNextWindowPos({is_right ? size.x - margin : margin, margin}, ImGuiCond_Always,
                             {is_right ? 1.0F : 0.0F, 0.0F});
+    ImGui::SetNextWindowSizeConstraints({0, 0}, {0.5F * size.x - margin, size.y - 2 * margin});
     ImGui::SetNextWindowBgAlpha(0.85F);
-    return ImGui::Begin(title, nullptr, ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoMove);
+    const bool is_open = ImGui::Begin(title, nullptr, ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoMove);
+    ImGui::PushItemWidth(9 * ImGui::GetFontSize());
+    return is_open;
+}
+
+void endPanels()
+{
+    ImGui::PopItemWidth();
+    ImGui::End();
 }
 
 } // namespace
@@ -78,7 +88,7 @@ App::App(const DemoOptions& options, Clock::time_point start)
       m_record_output(options.record_input ? outputTo(options.record_input->string(), options.overwrite) : nullptr),
       m_world_options{options.voxels, options.structure, options.frames_in_flight},
       m_loading(options.voxels.scenes.empty() ? nullptr : std::make_unique<Loading>(m_world_options)),
-      m_window(options.size.value_or(m_settings.window), "zvo"),
+      m_window(options.size.value_or(m_settings.window), !options.size, "zvo"),
       m_device(deviceOptions(options, m_window), zvoKernels()),
       m_swapchain(m_device, [this](VkInstance instance) { return m_window.makeSurface(instance); },
                   {m_view.present_mode, options.frames_in_flight}),
@@ -307,6 +317,9 @@ void App::buildPanels()
                    {
                        return;
                    }
+                   constexpr float kLinesMin = 30; // of a window that has room for open panels
+                   ImGui::SetNextWindowCollapsed(ImGui::GetIO().DisplaySize.y < kLinesMin * ImGui::GetFontSize(),
+                                                 ImGuiCond_Once);
                    if (beginPanels("zvo", false))
                    {
                        scenePanel(*m_world, m_timeline);
@@ -314,17 +327,18 @@ void App::buildPanels()
                        buildPanel();
                        toolsPanel();
                        viewPanel(m_view, {internalScale(), m_swapchain.mode(), m_camera.speed(), shownSamples(),
-                                          m_renderer.cacheFrames(), RadianceOptions().faces, m_has_map});
+                                          m_renderer.cacheFrames(), m_has_map});
                        cameraPanel(m_camera);
                        ImGui::TextUnformatted("F1: keys");
                    }
-                   ImGui::End();
+                   endPanels();
+                   ImGui::SetNextWindowCollapsed(true, ImGuiCond_Once);
                    if (beginPanels("measurements", true))
                    {
                        performancePanel(m_stats, memoryUse());
                        inspectorPanel(m_inspected, m_world->scene.tree().grid);
                    }
-                   ImGui::End();
+                   endPanels();
                    shadersPanel(m_shader_message);
                    keysPanel(m_panels.shows_keys);
                    noticesPanel(m_notices);
@@ -340,7 +354,7 @@ void App::keepSettings()
         return;
     }
     Settings settings;
-    const PictureSize size = m_window.size();
+    const PictureSize size = m_window.unscaledSize();
     settings.window = size.width != 0 && size.height != 0 ? size : m_settings.window;
     settings.shows_panels = m_options.hide_ui ? m_settings.shows_panels : m_panels.shows_panels;
     settings.shows_keys = m_panels.shows_keys;

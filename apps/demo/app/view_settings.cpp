@@ -109,10 +109,41 @@ Form<glm::dvec3> direction()
     return {cli::parseDirection, read, [](const glm::dvec3& value) { return Json{value.x, value.y, value.z}; }};
 }
 
+// In which pictures a setting has an effect.
+bool always(const ViewState&)
+{
+    return true;
+}
+
+bool withLight(const ViewState& view)
+{
+    return view.frame.trace.view == View::Color;
+}
+
+bool byPrimaryRays(const ViewState& view)
+{
+    return view.frame.shownIntegrator() == Integrator::Primary;
+}
+
+bool byLitPrimaryRays(const ViewState& view)
+{
+    return withLight(view) && byPrimaryRays(view);
+}
+
+bool byPaths(const ViewState& view)
+{
+    return view.frame.shownIntegrator() == Integrator::Path;
+}
+
+bool byPathsThroughALens(const ViewState& view)
+{
+    return byPaths(view) && view.frame.path.lens_radius > 0;
+}
+
 // of: the setting's place in a ViewState.
 template <typename T, typename Of>
 ViewSetting setting(const char* key, const Of& of, const Form<T>& form, ViewSetting::Option option,
-                    void (*show)(ViewState&, const ViewInfo&), bool is_of_light = false)
+                    void (*show)(ViewState&, const ViewInfo&), bool (*applies)(const ViewState&) = always)
 {
     const auto parse = [=](std::string_view name, const std::string& argument) -> ViewChange
     { return [of, value = form.parse(name, argument)](ViewState& view) { of(view) = value; }; };
@@ -122,7 +153,7 @@ ViewSetting setting(const char* key, const Of& of, const Form<T>& form, ViewSett
             [=](ViewState& view, const JsonCursor& value) { of(view) = form.read(value); },
             [=](const ViewState& view) { return form.write(of(view)); },
             show,
-            is_of_light};
+            applies};
 }
 
 // A legend of the colours of the iterations view (trace/views.comp).
@@ -183,16 +214,13 @@ void showIntegrator(ViewState& view, const ViewInfo& info)
     }
     if (info.cache_frames)
     {
-        tell(fmt::format("light of {} frames, {} faces a frame at most", *info.cache_frames, info.cached_faces));
+        tell(fmt::format("light of {} frames", *info.cache_frames));
     }
 }
 
 void showDenoise(ViewState& view, const ViewInfo&)
 {
-    if (view.frame.integrator == Integrator::Path)
-    {
-        ImGui::Checkbox("denoise", &view.frame.denoise);
-    }
+    ImGui::Checkbox("denoise", &view.frame.denoise);
 }
 
 void showShadows(ViewState& view, const ViewInfo& info)
@@ -208,8 +236,7 @@ void showShadows(ViewState& view, const ViewInfo& info)
 void showOcclusion(ViewState& view, const ViewInfo&)
 {
     int rays = static_cast<int>(view.frame.trace.occlusion_rays);
-    if (ImGui::SliderInt("occlusion rays", &rays, 0, static_cast<int>(kOcclusionRaysMax), "%d",
-                         ImGuiSliderFlags_AlwaysClamp))
+    if (ImGui::SliderInt("sky rays", &rays, 0, static_cast<int>(kOcclusionRaysMax), "%d", ImGuiSliderFlags_AlwaysClamp))
     {
         view.frame.trace.occlusion_rays = static_cast<std::uint32_t>(rays);
     }
@@ -220,43 +247,36 @@ void showSun(ViewState& view, const ViewInfo&)
     const SunAngles before = sunAngles(view.frame.trace.to_sun);
     auto azimuth = static_cast<float>(before.azimuth);
     auto elevation = static_cast<float>(before.elevation);
-    bool is_moved =
-        ImGui::SliderFloat("sun from north", &azimuth, 0.0F, 360.0F, "%.0f deg", ImGuiSliderFlags_AlwaysClamp);
-    is_moved |= ImGui::SliderFloat("sun's height", &elevation, -10.0F, 89.0F, "%.0f deg", ImGuiSliderFlags_AlwaysClamp);
+    bool is_moved = ImGui::SliderFloat("sun azimuth", &azimuth, 0.0F, 360.0F, "%.0f deg", ImGuiSliderFlags_AlwaysClamp);
+    is_moved |= ImGui::SliderFloat("sun height", &elevation, -10.0F, 89.0F, "%.0f deg", ImGuiSliderFlags_AlwaysClamp);
     if (is_moved)
     {
         view.frame.trace.to_sun = toSun({azimuth, elevation});
     }
 }
 
-void showBounces(ViewState& view, const ViewInfo& info)
+void showBounces(ViewState& view, const ViewInfo&)
 {
     constexpr int kUsefulMost = 32;
     int bounces = static_cast<int>(view.frame.path.bounces);
-    if (info.samples && ImGui::SliderInt("bounces", &bounces, 0, kUsefulMost, "%d", ImGuiSliderFlags_AlwaysClamp))
+    if (ImGui::SliderInt("bounces", &bounces, 0, kUsefulMost, "%d", ImGuiSliderFlags_AlwaysClamp))
     {
         view.frame.path.bounces = static_cast<std::uint32_t>(bounces);
     }
 }
 
-void showAperture(ViewState& view, const ViewInfo& info)
+void showAperture(ViewState& view, const ViewInfo&)
 {
     PathOptions& path = view.frame.path;
-    if (info.samples)
-    {
-        // At the far end, what is twice as far away as the focus has a blur of a twentieth of its distance.
-        ImGui::SliderFloat("aperture", &path.lens_radius, 0.0F, 0.1F * path.focus_distance, "%.3g",
-                           ImGuiSliderFlags_AlwaysClamp | ImGuiSliderFlags_NoRoundToFormat);
-    }
+    // At the far end, what is twice as far away as the focus has a blur of a twentieth of its distance.
+    ImGui::SliderFloat("aperture", &path.lens_radius, 0.0F, 0.1F * path.focus_distance, "%.3g",
+                       ImGuiSliderFlags_AlwaysClamp | ImGuiSliderFlags_NoRoundToFormat);
 }
 
-void showFocus(ViewState& view, const ViewInfo& info)
+void showFocus(ViewState& view, const ViewInfo&)
 {
     PathOptions& path = view.frame.path;
-    if (info.samples && path.lens_radius > 0)
-    {
-        ImGui::DragFloat("focus (G)", &path.focus_distance, 0.005F * path.focus_distance, 1e-4F, 1e6F, "%.3g");
-    }
+    ImGui::DragFloat("focus (G)", &path.focus_distance, 0.005F * path.focus_distance, 1e-4F, 1e6F, "%.3g");
 }
 
 void showExposure(ViewState& view, const ViewInfo&)
@@ -267,17 +287,17 @@ void showExposure(ViewState& view, const ViewInfo&)
 
 void showDetail(ViewState& view, const ViewInfo&)
 {
-    ImGui::SliderFloat("detail, pixels", &view.frame.trace.detail_pixels, 0.0F, 16.0F, "%.1f",
+    ImGui::SliderFloat("detail", &view.frame.trace.detail_pixels, 0.0F, 16.0F, "%.1f pixels",
                        ImGuiSliderFlags_AlwaysClamp);
 }
 
 void showResolution(ViewState& view, const ViewInfo& info)
 {
     const std::string current = view.internal_scale ? fmt::format("{:g}", *view.internal_scale)
-                                                    : fmt::format("automatic ({:g})", info.internal_scale);
+                                                    : fmt::format("auto ({:g})", info.internal_scale);
     if (ImGui::BeginCombo("resolution", current.c_str()))
     {
-        if (ImGui::Selectable("automatic", !view.internal_scale))
+        if (ImGui::Selectable("auto", !view.internal_scale))
         {
             view.internal_scale.reset();
         }
@@ -315,38 +335,40 @@ std::vector<ViewSetting> makeSettings()
             {kViewGroup, "VIEW", cli::viewHelp()}, showView),
         setting(
             "integrator", [](auto& view) -> auto& { return view.frame.integrator; }, named(cli::kIntegrators),
-            {kViewGroup, cli::listOf(cli::kIntegrators, "|"), cli::kIntegratorHelp}, showIntegrator, true),
+            {kViewGroup, cli::listOf(cli::kIntegrators, "|"), cli::kIntegratorHelp}, showIntegrator, withLight),
         setting(
             "denoise", [](auto& view) -> auto& { return view.frame.denoise; }, flag(),
-            {kViewGroup, "", "smooth the noise of few paths, but not edges"}, showDenoise, true),
+            {kViewGroup, "", "smooth the noise of few paths, but not edges"}, showDenoise, byPaths),
         setting(
-            "shadows", [](auto& view) -> auto& { return view.frame.trace.shadows; }, flag(), {}, showShadows, true),
+            "shadows", [](auto& view) -> auto& { return view.frame.trace.shadows; }, flag(), {}, showShadows,
+            withLight),
         setting(
             "occlusion", [](auto& view) -> auto& { return view.frame.trace.occlusion_rays; },
             wholeUpTo(kOcclusionRaysMax),
             {kViewGroup, "RAYS", "rays a pixel that find how much of the sky it sees (default 0)"}, showOcclusion,
-            true),
+            byLitPrimaryRays),
         setting(
             "sun", [](auto& view) -> auto& { return view.frame.trace.to_sun; }, direction(),
-            {kViewGroup, "x,y,z", "direction to the sun"}, showSun, true),
+            {kViewGroup, "x,y,z", "direction to the sun"}, showSun, withLight),
         setting(
             "map_sun", [](auto& view) -> auto& { return view.map_sun; }, flag(),
             {kViewGroup, "", "a sun beside the map of --environment"}, nullptr),
         setting(
             "bounces", [](auto& view) -> auto& { return view.frame.path.bounces; }, wholeUpTo(kBouncesMax),
-            {kViewGroup, "N", "diffuse reflections of a path (default 8)"}, showBounces, true),
+            {kViewGroup, "N", "diffuse reflections of a path (default 8)"}, showBounces, byPaths),
         setting(
             "aperture", [](auto& view) -> auto& { return view.frame.path.lens_radius; }, ofScene(),
-            {kViewGroup, "RADIUS", "of the lens of paths, in world units (default: a pinhole)"}, showAperture, true),
+            {kViewGroup, "RADIUS", "of the lens of paths, in world units (default: a pinhole)"}, showAperture, byPaths),
         setting(
             "focus", [](auto& view) -> auto& { return view.frame.path.focus_distance; }, ofScene(),
-            {kViewGroup, "DISTANCE", "of the plane in focus, in world units (default 1)"}, showFocus, true),
+            {kViewGroup, "DISTANCE", "of the plane in focus, in world units (default 1)"}, showFocus,
+            byPathsThroughALens),
         setting(
             "exposure", [](auto& view) -> auto& { return view.frame.exposure.factor; }, positive(),
-            {kViewGroup, "FACTOR", "brightness (default 1)"}, showExposure, true),
+            {kViewGroup, "FACTOR", "brightness (default 1)"}, showExposure, withLight),
         setting(
             "detail", [](auto& view) -> auto& { return view.frame.trace.detail_pixels; }, positive(),
-            {kViewGroup, "PIXELS", "rays stop at octree nodes up to this many pixels wide"}, showDetail),
+            {kViewGroup, "PIXELS", "rays stop at octree nodes up to this many pixels wide"}, showDetail, byPrimaryRays),
         setting(
             "internal_scale", [](auto& view) -> auto& { return view.internal_scale; }, scale(),
             {kWindowGroup, "FACTOR",
@@ -382,12 +404,12 @@ void viewPanel(ViewState& view, const ViewInfo& info)
     }
     for (const ViewSetting& setting : viewSettings())
     {
-        if (setting.show != nullptr && (view.frame.trace.view == View::Color || !setting.is_of_light))
+        if (setting.show != nullptr && setting.applies(view))
         {
             setting.show(view, info);
         }
     }
-    tell(fmt::format("speed {:.3g} units/s", info.camera_speed));
+    tell(fmt::format("flies {:.3g} units/s", info.camera_speed));
 }
 
 } // namespace zvo::demo

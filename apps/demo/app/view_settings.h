@@ -25,7 +25,6 @@ struct ViewInfo
     double camera_speed = 1;                   // world units a second
     std::optional<std::uint32_t> samples;      // a pixel, where the picture has several
     std::optional<std::uint32_t> cache_frames; // of the radiance cache, where there is one
-    std::uint32_t cached_faces = 0;            // that a frame samples at most
     bool has_map = false;                      // an environment map lights the picture
 };
 
@@ -55,7 +54,7 @@ struct ViewSetting
 
     /// Shows the setting in the view panel, and changes it. Null: it is not there.
     void (*show)(ViewState& view, const ViewInfo& info);
-    bool is_of_light = false; // not shown where the view has no light
+    bool (*applies)(const ViewState& view); // whether it has an effect; otherwise it is not shown
 
     /// The option's name, such as --internal-scale.
     [[nodiscard]] std::string optionName() const;

@@ -138,9 +138,33 @@ PictureSize sizeOf(int width, int height)
     return {static_cast<std::uint32_t>(std::max(width, 0)), static_cast<std::uint32_t>(std::max(height, 0))};
 }
 
+// The size times the first screen's scale, as far as that has room. Of screens whose units are larger than pixels, GLFW
+// tells a scale, too, but their windows need none.
+PictureSize fitted(PictureSize size)
+{
+    GLFWmonitor* const screen = glfwGetPrimaryMonitor();
+    if (screen == nullptr)
+    {
+        return size;
+    }
+    float scale = 1;
+    glfwGetMonitorContentScale(screen, &scale, nullptr);
+    int x = 0;
+    int y = 0;
+    int width = 0;
+    int height = 0;
+    glfwGetMonitorWorkarea(screen, &x, &y, &width, &height);
+    const auto fit = [scale](std::uint32_t length, int room)
+    {
+        const auto wanted = static_cast<std::uint32_t>(static_cast<float>(length) * std::max(scale, 1.0F));
+        return std::min(wanted, std::max(length, static_cast<std::uint32_t>(std::max(room, 1))));
+    };
+    return {fit(size.width, width), fit(size.height, height)};
+}
+
 } // namespace
 
-Window::Window(PictureSize size, const std::string& title)
+Window::Window(PictureSize size, bool scales, const std::string& title) : m_scales(scales)
 {
     glfwSetErrorCallback(onError);
     if (glfwInit() == GLFW_FALSE)
@@ -148,8 +172,9 @@ Window::Window(PictureSize size, const std::string& title)
         throwNoWindow("there is no display for a window");
     }
     glfwWindowHint(GLFW_CLIENT_API, GLFW_NO_API);
-    m_window =
-        glfwCreateWindow(static_cast<int>(size.width), static_cast<int>(size.height), title.c_str(), nullptr, nullptr);
+    const PictureSize first = scales ? fitted(size) : size;
+    m_window = glfwCreateWindow(static_cast<int>(first.width), static_cast<int>(first.height), title.c_str(), nullptr,
+                                nullptr);
     if (m_window == nullptr)
     {
         glfwTerminate();
@@ -208,6 +233,15 @@ PictureSize Window::size() const
     int height = 0;
     glfwGetWindowSize(m_window, &width, &height);
     return m_is_minimized || m_has_no_extent ? PictureSize{} : sizeOf(width, height);
+}
+
+PictureSize Window::unscaledSize() const
+{
+    const PictureSize size = this->size();
+    const float scale = m_scales ? uiScale() : 1.0F;
+    const auto unscaled = [scale](std::uint32_t length)
+    { return static_cast<std::uint32_t>(static_cast<float>(length) / scale + 0.5F); };
+    return {unscaled(size.width), unscaled(size.height)};
 }
 
 PictureSize Window::framebufferSize() const

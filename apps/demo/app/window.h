@@ -19,8 +19,9 @@ namespace zvo::demo
 class Window
 {
 public:
-    /// Of size in the window's units. Throws Error{Device} where there is no display.
-    Window(PictureSize size, const std::string& title);
+    /// Of size in the window's units; scales: times the system's scale, and not larger than the screen. Throws
+    /// Error{Device} where there is no display.
+    Window(PictureSize size, bool scales, const std::string& title);
     ~Window();
     Window(const Window&) = delete;
     Window& operator=(const Window&) = delete;
@@ -36,6 +37,9 @@ public:
 
     /// Size in the window's units; nothing while it is minimised.
     [[nodiscard]] PictureSize size() const;
+
+    /// size() without the system's scale, for another window that has one.
+    [[nodiscard]] PictureSize unscaledSize() const;
 
     /// Size in pixels.
     [[nodiscard]] PictureSize framebufferSize() const;
@@ -62,6 +66,7 @@ public:
 private:
     GLFWwindow* m_window = nullptr;
     std::vector<InputEvent> m_events;
+    bool m_scales = false;
     bool m_is_minimized = false;
     bool m_has_no_extent = false; // because resize() said so
 };

@@ -55,22 +55,18 @@ void performancePanel(const FrameStats& stats, const MemoryUse& memory)
     {
         return;
     }
-    tell(fmt::format("{:.1f} frames/s, {:.1f} ms (95 %: {:.1f} ms)", stats.framesPerSecond(), stats.frameMs().mean(),
-                     stats.frameMs().p95()));
-    if (stats.integrator() == Integrator::Path) // each frame adds a path to every pixel
-    {
-        tell(fmt::format("{:.1f} paths a pixel/s, {:.1f} Mrays/s of paths", stats.framesPerSecond(),
-                         stats.megaraysPerSecond()));
-    }
-    else
-    {
-        tell(fmt::format("{:.1f} Mrays/s primary", stats.megaraysPerSecond()));
-    }
+    tell(stats.frameMs().values().empty()
+             ? std::string("the picture stands still")
+             : fmt::format("{:.1f} frames/s, {:.1f} ms (95 %: {:.1f} ms)", stats.framesPerSecond(),
+                           stats.frameMs().mean(), stats.frameMs().p95()));
+    tell(fmt::format("{:.1f} Mrays/s {}", stats.megaraysPerSecond(),
+                     stats.integrator() == Integrator::Path ? "of paths" : "primary"));
     const auto mib = [](std::uint64_t bytes) { return static_cast<double>(bytes) / kMiB; };
-    tell(fmt::format("memory, MiB: {:.1f} used, {:.1f} held", mib(memory.used), mib(memory.held)));
+    tell(fmt::format("memory, MiB: {:.1f} used of {:.1f}", mib(memory.used), mib(memory.held)));
     const std::uint64_t known = memory.geometry + memory.attributes + memory.pictures;
-    tell(fmt::format("  geometry {:.1f}, attributes {:.1f}, pictures {:.1f}, other {:.1f}", mib(memory.geometry),
-                     mib(memory.attributes), mib(memory.pictures), mib(memory.used - std::min(known, memory.used))));
+    tell(fmt::format("geometry {:.1f}, attributes {:.1f}", mib(memory.geometry), mib(memory.attributes)));
+    tell(fmt::format("pictures {:.1f}, other {:.1f}", mib(memory.pictures),
+                     mib(memory.used - std::min(known, memory.used))));
     if (ImGui::BeginTable("passes", 4, ImGuiTableFlags_RowBg | ImGuiTableFlags_SizingFixedFit))
     {
         ImGui::TableSetupColumn("pass");

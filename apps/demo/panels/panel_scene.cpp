@@ -15,8 +15,8 @@ namespace
 void motionControls(const LiveScene& scene, Timeline& timeline)
 {
     const UpdateReport& update = scene.info().update;
-    tell(fmt::format("{} moving: {} voxels, overlay of {} nodes", scene.animated().objects.size(), update.dynamic_count,
-                     update.node_count));
+    tell(fmt::format("{} moving: {} voxels", scene.animated().objects.size(), update.dynamic_count));
+    tell(fmt::format("overlay of {} nodes", update.node_count));
     if (ImGui::Button(timeline.plays() ? "stop" : "play"))
     {
         timeline.play(!timeline.plays());
@@ -54,19 +54,18 @@ void scenePanel(const World& world, Timeline& timeline)
         tell("drop a file onto the window");
         return;
     }
-    tell(fmt::format("{}: {} of {}^3", world.name, structureName(scene.tree().structure),
-                     scene.tree().grid.resolution()));
+    tell(world.name);
+    tell(fmt::format("{} of {}^3", scene.tree().isDag() ? "DAG" : "octree", scene.tree().grid.resolution()));
     tell(fmt::format("{} voxels, {} nodes", info.voxel_count, info.node_count));
     if (info.voxel_count != 0)
     {
         const auto voxels = static_cast<double>(info.voxel_count);
-        tell(fmt::format("bytes a voxel: geometry {:.2f}, attributes {:.2f}",
-                         static_cast<double>(info.geometry_bytes) / voxels,
+        tell(fmt::format("bytes a voxel: {:.2f} + {:.2f}", static_cast<double>(info.geometry_bytes) / voxels,
                          static_cast<double>(info.attribute_bytes) / voxels));
     }
     if (world.isVoxelized())
     {
-        tell(fmt::format("{} triangles, voxelized and built in {:.0f} ms", info.triangle_count,
+        tell(fmt::format("{} triangles, in {:.0f} ms", info.triangle_count,
                          cli::sumMs(info.passes) + cli::sumMs(info.compress_passes)));
     }
     if (scene.moves())

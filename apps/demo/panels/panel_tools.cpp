@@ -75,7 +75,7 @@ ToolsAnswer toolsPanel(ToolState& state, const World& world)
     answer.redoes = button("redo", edits->redoCount() != 0);
     ImGui::SameLine();
     answer.saves = ImGui::Button("save");
-    tell(fmt::format("{} strokes to undo, {} to redo, {:.1f} MiB", edits->undoCount(), edits->redoCount(),
+    tell(fmt::format("strokes: {} to undo, {} to redo, {:.1f} MiB", edits->undoCount(), edits->redoCount(),
                      static_cast<double>(edits->heldBytes()) / (1 << 20)));
     return answer;
 }
