@@ -112,13 +112,13 @@ protected:
         return file("shown.png");
     }
 
-    /// The picture of `zvo render`. By primary rays it has one sample, like a steady frame.
+    /// The picture of `zvo render`. By primary rays it has one sample and four occlusion rays, like a steady frame.
     [[nodiscard]] std::string render(const std::string& arguments) const
     {
         const auto given = [&](std::string_view option) { return arguments.find(option) != std::string::npos; };
         const bool is_lit = !given("--integrator") && (!given("--view") || given("--view color"));
         run("render -o rendered.png -f " + arguments + (is_lit && !given("--spp") ? " --spp 1" : "") +
-            (is_lit && !given("--occlusion") ? " --occlusion 0" : ""));
+            (is_lit && !given("--occlusion") ? " --occlusion 4" : ""));
         return file("rendered.png");
     }
 

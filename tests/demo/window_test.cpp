@@ -76,7 +76,7 @@ TEST_F(DemoWindow, ALowerResolutionShowsPixelsOfItsPicture)
 {
     show(kCube + kCamera + kSteady + kSize + " --internal-scale 0.5 --frames 1 --screenshot shown.png");
     const Image shown = pixels("shown.png");
-    run("render -o rendered.png --spp 1 --occlusion 0 --size 120x75 " + kCube + kCamera);
+    run("render -o rendered.png --spp 1 --occlusion 4 --size 120x75 " + kCube + kCamera);
     const Image traced = pixels("rendered.png");
     ASSERT_EQ(shown.width, 240U);
     ASSERT_EQ(shown.height, 150U);
@@ -112,7 +112,7 @@ TEST_F(DemoWindow, FliesAlongAPathAndThroughTheTimesOfAMovingSceneAsZvoRenderDoe
     for (const std::string structure : {"svo", "svdag"})
     {
         const std::string common = "moving.scene.json --camera-path path.json --structure " + structure + kSize;
-        run("render -o frame_##.png --spp 1 --occlusion 0 --frames 0..9 -f " + common);
+        run("render -o frame_##.png --spp 1 --occlusion 4 --frames 0..9 -f " + common);
         std::set<std::string> pictures;
         for (const int frame : {0, 3, 9})
         {

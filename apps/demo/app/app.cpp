@@ -107,6 +107,11 @@ App::App(const DemoOptions& options, Clock::time_point start)
         m_flight.fly(readCameraPath(*options.camera_path), true);
     }
     m_editor.state = m_settings.brush;
+    if (options.usesSettings() && m_settings.is_first && m_device.device().report().type != "cpu")
+    {
+        m_view.frame.integrator = Integrator::Cache; // which takes a software device long to settle
+        applyViewOptions();
+    }
     if (options.environment.map)
     {
         setEnvironment(options.environment);

@@ -139,7 +139,9 @@ Settings readSettings(const std::filesystem::path& file)
     std::error_code ignored;
     if (!std::filesystem::exists(file, ignored))
     {
-        return {};
+        Settings first;
+        first.is_first = true;
+        return first;
     }
     try
     {

@@ -24,6 +24,7 @@ struct Settings
     ViewState view;
     ToolState brush;                 // whatever the tool
     std::vector<SceneMemory> scenes; // the last one first
+    bool is_first = false;           // there was no file; not in it
 
     bool operator==(const Settings&) const = default;
 };

@@ -345,7 +345,7 @@ std::vector<ViewSetting> makeSettings()
         setting(
             "occlusion", [](auto& view) -> auto& { return view.frame.trace.occlusion_rays; },
             wholeUpTo(kOcclusionRaysMax),
-            {kViewGroup, "RAYS", "rays a pixel that find how much of the sky it sees (default 0)"}, showOcclusion,
+            {kViewGroup, "RAYS", "rays a sample that find how much of the sky it sees (default 4)"}, showOcclusion,
             byLitPrimaryRays),
         setting(
             "sun", [](auto& view) -> auto& { return view.frame.trace.to_sun; }, direction(),
