@@ -2,11 +2,15 @@
 #include "common/command_line.h"
 
 #include "common/output.h"
+#include "common/words.h"
 #include "zvo/version.h"
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <iterator>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -31,14 +35,56 @@ std::string commandNames(const CLI::App& app)
     return names;
 }
 
-// Names the arguments that no option has taken.
+// What an argument that looks like word might have been: an option of app, or one of its commands.
+std::vector<std::string> namesLike(const CLI::App& app, std::string_view word)
+{
+    std::vector<std::string> names;
+    if (word.starts_with('-'))
+    {
+        for (const CLI::Option* option : app.get_options())
+        {
+            std::ranges::transform(option->get_lnames(), std::back_inserter(names),
+                                   [](const std::string& name) { return "--" + name; });
+        }
+        return names;
+    }
+    const std::vector<const CLI::App*> commands = app.get_subcommands([](const CLI::App*) { return true; });
+    std::ranges::transform(commands, std::back_inserter(names), &CLI::App::get_name);
+    return names;
+}
+
+// Names the first argument that no option has taken.
 std::string strangerText(const CLI::App& app)
 {
-    const std::vector<std::string> strangers = app.remaining(true);
-    const char* const what = !app.get_subcommands().empty() ? "not understood:"
-                             : commandNames(app).empty()    ? "there is no option"
-                                                            : "there is no command or option";
-    return fmt::format("{} {}", what, fmt::join(strangers, " "));
+    const std::vector<CLI::App*> chosen = app.get_subcommands();
+    const std::string argument = app.remaining(true).front();
+    const std::string word = argument.substr(0, argument.find('='));
+    const char* const what = word.starts_with('-') && !chosen.empty() ? "there is no option"
+                             : !chosen.empty()                        ? "not understood:"
+                             : commandNames(app).empty()              ? "there is no option"
+                                                                      : "there is no command or option";
+    return fmt::format("{} {}{}", what, word,
+                       suggestion(word, namesLike(chosen.empty() ? app : *chosen.front(), word)));
+}
+
+// "help" as the first word, and a command behind it, mean --help.
+std::vector<std::string> withoutHelpWord(const CLI::App& app, std::vector<std::string> words)
+{
+    if (words.empty() || words.front() != "help" || commandNames(app).empty())
+    {
+        return words;
+    }
+    if (words.size() == 1)
+    {
+        return {"--help"};
+    }
+    const std::vector<std::string> names = namesLike(app, words[1]);
+    if (words.size() > 2 || std::ranges::find(names, words[1]) == names.end())
+    {
+        throw usageError(app,
+                         fmt::format("help takes one command, {}{}", commandNames(app), suggestion(words[1], names)));
+    }
+    return {words[1], "--help"};
 }
 
 } // namespace
@@ -64,9 +110,11 @@ Error usageError(const CLI::App& app, std::string what)
 bool parse(CLI::App& app, int argc, const char* const* argv)
 {
     const std::string commands = commandNames(app);
+    std::vector<std::string> words = withoutHelpWord(app, {argv + std::min(argc, 1), argv + argc});
     try
     {
-        app.parse(argc, argv);
+        std::ranges::reverse(words); // as CLI11 takes them
+        app.parse(std::move(words));
     }
     catch (const CLI::CallForHelp&)
     {
@@ -81,6 +129,10 @@ bool parse(CLI::App& app, int argc, const char* const* argv)
     catch (const CLI::ExtrasError&)
     {
         throw usageError(app, strangerText(app));
+    }
+    catch (const CLI::RequiredError& error) // a name may be missing because it was mistyped
+    {
+        throw usageError(app, app.remaining(true).empty() ? error.what() : strangerText(app));
     }
     catch (const CLI::ParseError& error)
     {

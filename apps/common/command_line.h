@@ -20,9 +20,9 @@ void describeProgram(CLI::App& app, const char* footer);
 /// A usage error that points to the help of the program, or of the command that was chosen.
 Error usageError(const CLI::App& app, std::string what);
 
-/// Reads the arguments. Prints the text that --help or --version asks for and returns false, or returns true. Throws
-/// usageError(), one line, for anything that is not understood, and where a command is missing; an Error that a
-/// callback of app throws becomes one.
+/// Reads the arguments; of a program with commands, "help COMMAND" means "COMMAND --help". Prints the text that --help
+/// or --version asks for and returns false, or returns true. Throws usageError(), one line, for anything that is not
+/// understood, and where a command is missing; an Error that a callback of app throws becomes one.
 bool parse(CLI::App& app, int argc, const char* const* argv);
 
 /// The commands of a program.

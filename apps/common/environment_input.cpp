@@ -3,6 +3,7 @@
 
 #include "common/output.h"
 #include "common/progress.h"
+#include "common/words.h"
 #include "core/base/read_file.h"
 #include "core/path/daylight.h"
 #include "io/image/hdr_image_io.h"
@@ -49,7 +50,7 @@ void limit(HdrImage& map, float strength)
     if (count != 0)
     {
         talk(fmt::format("warning: --environment-strength {:g} brings {} of the map above {:g}; they are taken as that",
-                         strength, count == 1 ? "1 texel" : fmt::format("{} texels", count), kRadianceMax));
+                         strength, counted(count, "texel"), kRadianceMax));
     }
 }
 

@@ -2,6 +2,7 @@
 #include "common/option_groups.h"
 
 #include "common/parse.h"
+#include "common/progress.h"
 #include "core/base/tuning.h"
 #include "zvo/error.h"
 
@@ -159,13 +160,23 @@ void addOutputOptions(CLI::App& app, OutputOptions& options, const char* what)
     addText(app, "-o,--output", options.path, "FILE", what)->required()->group("Output");
     addText(app, "--json", options.json, "FILE|-", "write a report; - is standard output")->group("Output");
     app.add_flag("-f,--force", options.overwrite, "overwrite files that exist")->group("Output");
+    addQuietOption(app);
+}
+
+void addQuietOption(CLI::App& app)
+{
+    app.add_flag_callback(
+           "-q,--quiet", [] { setQuiet(true); },
+           "no progress bar and no words on how it went: only warnings and errors")
+        ->group("Output");
 }
 
 void addCameraOption(CLI::App& app, std::string& camera)
 {
     addText(app, "--camera", camera, "NAME|ex,ey,ez,tx,ty,tz[,FOV]",
-            "a camera of the scene, or eye, target and vertical field of view in degrees, or auto, which frames "
-            "everything, or close, where two thirds of the rays hit (default: the scene's first camera, or else auto)");
+            "a camera of the scene; or auto, which frames everything, or close, where two thirds of the rays hit; or "
+            "front, back, left, right, top, or iso, which has no perspective; or eye, target and vertical field of "
+            "view in degrees (default: the scene's first camera, or else auto)");
 }
 
 } // namespace zvo::cli

@@ -66,6 +66,9 @@ void addVoxelOptions(CLI::App& app, VoxelOptions& options, const std::string& al
 /// what: the name of what is written to the output.
 void addOutputOptions(CLI::App& app, OutputOptions& options, const char* what);
 
+/// --quiet, which holds until the next setQuiet().
+void addQuietOption(CLI::App& app);
+
 void addCameraOption(CLI::App& app, std::string& camera);
 
 } // namespace zvo::cli

@@ -19,6 +19,7 @@ namespace
 
 const char* g_program = "zvo";
 std::function<void(std::string_view)> g_listener;
+bool g_quiet = false;
 std::atomic<bool> g_bar_shown = false;
 static_assert(std::atomic<bool>::is_always_lock_free); // so that a signal handler may use it
 
@@ -39,6 +40,19 @@ void talk(std::string_view text)
         line.begin(), line.end(), [](unsigned char letter) { return std::iscntrl(letter) != 0; }, ' ');
     line += '\n';
     std::fwrite(line.data(), 1, line.size(), stderr);
+}
+
+void tellRun(std::string_view text)
+{
+    if (!g_quiet)
+    {
+        talk(text);
+    }
+}
+
+void setQuiet(bool quiet)
+{
+    g_quiet = quiet;
 }
 
 void talkError(const std::exception& error)
@@ -85,7 +99,7 @@ void Progress::within(double done, std::string_view count)
 
 void Progress::draw(double done, std::string_view what) const
 {
-    if (::isatty(STDERR_FILENO) == 0)
+    if (g_quiet || ::isatty(STDERR_FILENO) == 0)
     {
         return;
     }

@@ -14,6 +14,12 @@ namespace zvo::cli
 /// Writes a line to standard error that begins with the program's name; control characters become spaces.
 void talk(std::string_view text);
 
+/// The same for how a run went, which is no warning and no error: not a word after setQuiet(true).
+void tellRun(std::string_view text);
+
+/// Whether tellRun() and progress bars stay silent from now on; at first, they do not.
+void setQuiet(bool quiet);
+
 /// Tells of an error that the program survives.
 void talkError(const std::exception& error);
 
@@ -26,7 +32,7 @@ void listenToTalk(std::function<void(std::string_view)> listener);
 /// Removes the progress bar from the screen, if one is shown. Async-signal-safe.
 void clearProgressBar() noexcept;
 
-/// A progress bar on standard error, if that is a terminal. One at a time.
+/// A progress bar on standard error, if that is a terminal and setQuiet() allows it. One at a time.
 class Progress
 {
 public:

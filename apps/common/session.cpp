@@ -4,6 +4,7 @@
 #include "common/names.h"
 #include "common/progress.h"
 #include "common/report.h"
+#include "common/words.h"
 #include "core/base/kernels.h"
 #include "io/scene/load_scene.h"
 #include "vk/log_file.h"
@@ -212,7 +213,7 @@ bool warnOfDropped(std::uint64_t voxel_count, const std::map<std::string, std::u
     }
     for (const auto& [reason, count] : senselessAmong(dropped))
     {
-        talk(fmt::format("warning: {} triangles left out ({})", count, reason));
+        talk(fmt::format("warning: {} left out ({})", counted(count, "triangle"), reason));
         told = true;
     }
     return told;
@@ -247,8 +248,8 @@ void checkValidation(const vk::HeadlessDevice& device)
     const std::uint32_t count = device.validationMessageCount();
     if (count != 0)
     {
-        throw Error(ErrorCode::Other, fmt::format("the validation layers reported {} {}, see above", count,
-                                                  count == 1 ? "problem" : "problems"));
+        throw Error(ErrorCode::Other,
+                    fmt::format("the validation layers reported {}, see above", counted(count, "problem")));
     }
 }
 

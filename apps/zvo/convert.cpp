@@ -6,6 +6,7 @@
 #include "common/session.h"
 #include "common/tree_export.h"
 #include "common/tree_input.h"
+#include "common/words.h"
 #include "core/base/input_error.h"
 #include "core/base/kernels.h"
 #include "core/file/zvo_file.h"
@@ -77,7 +78,7 @@ void convert(const ConvertOptions& options)
         checkValidation(*device);
     }
     output.finish();
-    talk(fmt::format("{} voxels of {}^3", tree.voxel_count, tree.grid.resolution()));
+    tellRun(fmt::format("{} of {}^3", counted(tree.voxel_count, "voxel"), tree.grid.resolution()));
 }
 
 } // namespace zvo::cli

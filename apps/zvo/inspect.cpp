@@ -4,6 +4,7 @@
 #include "common/output.h"
 #include "common/report.h"
 #include "common/tree_input.h"
+#include "common/words.h"
 #include "core/base/input_error.h"
 #include "core/base/read_file.h"
 #include "core/file/tree_stats.h"
@@ -199,8 +200,9 @@ void validate(const ValidateOptions& options)
                                          tree.levels[level].node_count, stats.unique_per_level[level], kExportAgain));
         }
     }
-    Output("-", true).write(fmt::format("{}: sound, {} with {} voxels of {}^3, {}\n", options.file.string(),
-                                        structureName(tree.structure), tree.voxel_count, tree.grid.resolution(),
+    Output("-", true).write(fmt::format("{}: sound, {} with {} of {}^3, {}\n", options.file.string(),
+                                        structureName(tree.structure), counted(tree.voxel_count, "voxel"),
+                                        tree.grid.resolution(),
                                         tree.hasAttributes() ? "with attributes" : "without attributes"));
 }
 

@@ -6,6 +6,7 @@
 #include "common/report.h"
 #include "common/session.h"
 #include "common/tree_export.h"
+#include "common/words.h"
 #include "core/file/zvo_file.h"
 #include "core/upload/gpu_scene.h"
 #include "runtime/octree_sha256.h"
@@ -187,9 +188,10 @@ void voxelize(const VoxelizeOptions& options)
             return octreeJson("zvo.voxelize/1", device.device().report(), options.voxels, run.triangle_count, result,
                               octreeSha256(device, result.octree), device.device().memory().peakBytes());
         });
-    talk(fmt::format("{} voxels of {}^3 from {} triangles; voxelize {:.1f} ms, build {:.1f} ms on {}",
-                     result.octree.voxel_count, run.grid.resolution(), run.triangle_count,
-                     result.operationMs("voxelize"), result.operationMs("octree"), device.device().report().name));
+    tellRun(fmt::format("{} of {}^3 from {}; voxelize {:.1f} ms, build {:.1f} ms on {}",
+                        counted(result.octree.voxel_count, "voxel"), run.grid.resolution(),
+                        counted(run.triangle_count, "triangle"), result.operationMs("voxelize"),
+                        result.operationMs("octree"), device.device().report().name));
 }
 
 void buildFile(const BuildFileOptions& options)
@@ -207,11 +209,11 @@ void buildFile(const BuildFileOptions& options)
     run.progress.begin("writing");
     writeZvo(built.tree, [&run](std::span<const std::byte> bytes) { run.output.write(bytes); });
     run.finish([&] { return builtJson(run, options, built); });
-    talk(fmt::format(
-        "{} voxels of {}^3 from {} triangles; {} bytes of nodes, {} of attributes; voxelize {:.1f} ms, "
-        "build {:.1f} ms{}{} on {}",
-        built.tree.voxel_count, run.grid.resolution(), run.triangle_count, built.tree.geometryBytes(),
-        built.tree.attributeBytes(), operationMs(built.passes, "voxelize"), operationMs(built.passes, "octree"),
+    tellRun(fmt::format(
+        "{} of {}^3 from {}; {} bytes of nodes, {} of attributes; voxelize {:.1f} ms, build {:.1f} ms{}{} on {}",
+        counted(built.tree.voxel_count, "voxel"), run.grid.resolution(), counted(run.triangle_count, "triangle"),
+        built.tree.geometryBytes(), built.tree.attributeBytes(), operationMs(built.passes, "voxelize"),
+        operationMs(built.passes, "octree"),
         is_dag ? fmt::format(", compress {:.1f} ms", operationMs(built.passes, "svdag")) : "",
         isPacked(options.voxels.attributes) ? fmt::format(", pack {:.1f} ms", operationMs(built.passes, "attributes"))
                                             : "",
