@@ -101,18 +101,13 @@ void checkOutputs(std::span<const std::string> outputs, std::span<const std::fil
     }
 }
 
-void checkPictureName(std::string_view option, const std::string& path, bool radiance)
+void checkPictureName(std::string_view option, const std::string& path, std::span<const std::string_view> extensions)
 {
-    const std::string extension = extensionOf(path);
-    if (extension == ".png" || (radiance && holdsRadiance(path)))
+    if (std::ranges::find(extensions, extensionOf(path)) == extensions.end())
     {
-        return;
+        throw Error(ErrorCode::Usage, fmt::format("{} {}: pictures are files that end in {}; name it so", option, path,
+                                                  fmt::join(extensions, ", ")));
     }
-    throw Error(ErrorCode::Usage,
-                radiance ? fmt::format("{} {}: pictures of light are PNG, OpenEXR or Radiance files; name it .png, "
-                                       ".exr or .hdr",
-                                       option, path)
-                         : fmt::format("{} {}: pictures are PNG files; name it .png", option, path));
 }
 
 bool holdsRadiance(const std::string& path)

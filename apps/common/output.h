@@ -4,6 +4,7 @@
 #include "common/scene_options.h"
 #include "io/file/atomic_file.h"
 
+#include <array>
 #include <cstddef>
 #include <memory>
 #include <optional>
@@ -13,6 +14,8 @@
 
 namespace zvo::cli
 {
+
+inline constexpr std::array<std::string_view, 1> kPngAlone = {".png"};
 
 /// The output of a command: standard output for "-", otherwise a file that appears complete or not at all. Made before
 /// the work starts, so that a path that cannot be written to is an error at once. Every function throws Error{Output}.
@@ -40,14 +43,14 @@ void checkPaths(const OutputOptions& options, std::span<const std::filesystem::p
 /// Throws Error{Usage} if two of the outputs are one file, or if one would overwrite an input. "" and "-" are no files.
 void checkOutputs(std::span<const std::string> outputs, std::span<const std::filesystem::path> inputs);
 
-/// Throws Error{Usage}, which names the option, unless the path ends in .png, or, of a picture of radiance, in .exr or
-/// .hdr.
-void checkPictureName(std::string_view option, const std::string& path, bool radiance = false);
+/// Throws Error{Usage}, which names the option, unless the path ends in one of extensions.
+void checkPictureName(std::string_view option, const std::string& path,
+                      std::span<const std::string_view> extensions = kPngAlone);
+
+/// Whether a picture of that name holds radiance: .exr and .hdr do.
+bool holdsRadiance(const std::string& path);
 
 /// The extension of a path in lower case, with its dot.
 std::string extensionOf(const std::string& path);
-
-/// Whether a picture of that name holds radiance as it is: .exr or .hdr.
-bool holdsRadiance(const std::string& path);
 
 } // namespace zvo::cli

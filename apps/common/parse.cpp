@@ -18,6 +18,8 @@ namespace zvo::cli
 namespace
 {
 
+constexpr std::uint32_t kFrameMax = 999999;
+
 Error valueError(std::string_view option, std::string_view text, std::string_view expected)
 {
     return {ErrorCode::Usage, fmt::format("{} {}: expected {}", option, text, expected)};
@@ -152,7 +154,6 @@ std::pair<std::uint32_t, std::uint32_t> parseSize(std::string_view option, std::
 
 std::pair<std::uint32_t, std::uint32_t> parseFrames(std::string_view option, std::string_view text)
 {
-    constexpr std::uint32_t kFrameMax = 999999;
     const std::size_t dots = text.find("..");
     if (dots != std::string_view::npos)
     {
@@ -164,6 +165,22 @@ std::pair<std::uint32_t, std::uint32_t> parseFrames(std::string_view option, std
         }
     }
     throw valueError(option, text, fmt::format("first..last such as 0..35, from 0 to {}", kFrameMax));
+}
+
+std::pair<std::uint32_t, std::uint32_t> parseFrameCount(std::string_view option, std::string_view text)
+{
+    return {0, static_cast<std::uint32_t>(parseInteger(option, text, 1, kFrameMax + 1) - 1)};
+}
+
+std::vector<std::string> parseNames(std::string_view option, std::string_view text)
+{
+    constexpr std::size_t kNamesMax = 64;
+    const std::vector<std::string_view> names = split(text, ',');
+    if (names.size() > kNamesMax || std::ranges::any_of(names, &std::string_view::empty))
+    {
+        throw valueError(option, text, fmt::format("1 to {} names with commas between them", kNamesMax));
+    }
+    return {names.begin(), names.end()};
 }
 
 std::uint64_t parseBytes(std::string_view option, std::string_view text)

@@ -62,6 +62,12 @@ std::pair<std::uint32_t, std::uint32_t> parseSize(std::string_view option, std::
 /// First and last frame: "0..35".
 std::pair<std::uint32_t, std::uint32_t> parseFrames(std::string_view option, std::string_view text);
 
+/// First and last frame of so many: "36" is 0..35.
+std::pair<std::uint32_t, std::uint32_t> parseFrameCount(std::string_view option, std::string_view text);
+
+/// Names with commas between them, 64 at most.
+std::vector<std::string> parseNames(std::string_view option, std::string_view text);
+
 /// A number of bytes with an optional K, M, G or T, or KiB and so on (powers of 1024): "512M", "1.5GiB".
 std::uint64_t parseBytes(std::string_view option, std::string_view text);
 

@@ -3,12 +3,14 @@
 
 #include "common/names.h"
 #include "common/parse.h"
+#include "common/words.h"
 #include "core/scene/main_bounds.h"
 #include "zvo/error.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <vector>
 
 namespace zvo::cli
@@ -20,18 +22,74 @@ namespace
 constexpr float kDefaultFov = 45.0F; // degrees
 // Of the framing camera's distance: about two thirds of the rays hit a single object.
 constexpr double kCloseDistance = 0.42;
+constexpr double kOrthographicFill = 0.92; // of the picture
+
+using Standard = ViewCamera (*)(const Bounds& subject, double aspect);
+
+ViewCamera closeUp(const Bounds& subject, double aspect)
+{
+    ViewCamera camera = ViewCamera::framing(subject, aspect);
+    const glm::dvec3 center = 0.5 * (glm::dvec3(subject.min) + glm::dvec3(subject.max));
+    camera.position = center + kCloseDistance * (camera.position - center);
+    return camera;
+}
+
+template <int x, int y, int z> ViewCamera along(const Bounds& subject, double aspect)
+{
+    return ViewCamera::framing(subject, aspect, {x, y, z});
+}
+
+// The front is at the lower edge of the picture.
+ViewCamera top(const Bounds& subject, double aspect)
+{
+    ViewCamera camera = along<0, -1, 0>(subject, aspect);
+    camera.right = {1.0, 0.0, 0.0};
+    camera.up = {0.0, 0.0, -1.0};
+    return camera;
+}
+
+// Parallel rays, along which the three axes are equally long in the picture.
+ViewCamera isometric(const Bounds& subject, double aspect)
+{
+    const glm::dvec3 center = 0.5 * (glm::dvec3(subject.min) + glm::dvec3(subject.max));
+    const glm::dvec3 half = 0.5 * (glm::dvec3(subject.max) - glm::dvec3(subject.min));
+    ViewCamera camera = ViewCamera::lookAt(center + 2.0 * std::max(glm::length(half), 1e-30) * glm::dvec3(1.0), center,
+                                           glm::radians(double{kDefaultFov}));
+    const double half_width = glm::dot(glm::abs(camera.right), half);
+    const double half_height = glm::dot(glm::abs(camera.up), half);
+    camera.orthographic = true;
+    camera.half_height = std::max({half_height, half_width / aspect, 1e-30}) / kOrthographicFill;
+    return camera;
+}
+
+constexpr auto kStandardCameras = std::to_array<Named<Standard>>({
+    {"auto", [](const Bounds& subject, double aspect) { return ViewCamera::framing(subject, aspect); }},
+    {"close", closeUp},
+    {"front", along<0, 0, -1>},
+    {"back", along<0, 0, 1>},
+    {"left", along<1, 0, 0>},
+    {"right", along<-1, 0, 0>},
+    {"top", top},
+    {"iso", isometric},
+});
 
 Error noSuchCamera(const std::string& wanted, const Scene& scene)
 {
     std::vector<std::string> names;
+    for (const Named<Standard>& camera : kStandardCameras)
+    {
+        names.emplace_back(camera.name);
+    }
+    std::vector<std::string> own;
     for (const Camera& camera : scene.cameras)
     {
-        names.push_back(fmt::format("\"{}\"", camera.name));
+        names.push_back(camera.name);
+        own.push_back(fmt::format("\"{}\"", camera.name));
     }
-    const std::string has = names.empty() ? "has no cameras" : fmt::format("has {}", fmt::join(names, ", "));
-    return {ErrorCode::Usage, fmt::format("--camera {}: there is no such camera; the scene {}; auto, close and six "
-                                          "finite numbers ex,ey,ez,tx,ty,tz always work",
-                                          wanted, has)};
+    const std::string has = own.empty() ? "has no cameras" : fmt::format("has {}", fmt::join(own, ", "));
+    return {ErrorCode::Usage, fmt::format("--camera {}: there is no such camera{}; the scene {}; {} and six finite "
+                                          "numbers ex,ey,ez,tx,ty,tz always work",
+                                          wanted, suggestion(wanted, names), has, standardCameras())};
 }
 
 } // namespace
@@ -46,6 +104,11 @@ ViewCamera cameraOfNumbers(const std::vector<float>& v)
     }
     const float fov = v.size() == 7 ? v[6] : kDefaultFov;
     return ViewCamera::lookAt({v[0], v[1], v[2]}, {v[3], v[4], v[5]}, glm::radians(double{fov}));
+}
+
+std::string standardCameras()
+{
+    return listOf(kStandardCameras);
 }
 
 std::string viewHelp()
@@ -80,16 +143,10 @@ ViewCamera chooseCamera(const std::string& wanted, const Scene& scene, const Bou
     {
         return ViewCamera::of(*named);
     }
-    if (wanted.empty() || wanted == "auto")
+    const auto* const standard = findNamed(kStandardCameras, wanted.empty() ? "auto" : wanted);
+    if (standard != kStandardCameras.end())
     {
-        return ViewCamera::framing(subject, aspect);
-    }
-    if (wanted == "close")
-    {
-        ViewCamera camera = ViewCamera::framing(subject, aspect);
-        const glm::dvec3 center = 0.5 * (glm::dvec3(subject.min) + glm::dvec3(subject.max));
-        camera.position = center + kCloseDistance * (camera.position - center);
-        return camera;
+        return standard->value(subject, aspect);
     }
     if (const auto numbers = tryParseFloats(wanted))
     {

@@ -40,16 +40,20 @@ struct RenderOptions
     OutputOptions output;
     std::uint32_t width = 1280;
     std::uint32_t height = 720;
-    std::string camera; // as given; empty: the scene's first one, or a fitting one
+    std::string camera;             // as given; empty: the scene's first one, or a fitting one
+    std::vector<std::string> sheet; // of all of these cameras, in its place, one picture is made
     std::optional<std::filesystem::path> camera_path;
     FrameOptions frame = usualFrame();
     std::optional<glm::dvec3> to_sun;     // direction, any length
     EnvironmentOptions environment;       // not of Integrator::Primary
     std::optional<std::uint32_t> samples; // a pixel
     std::optional<double> time_limit;     // seconds, after which no sample begins; of pictures with samples
+    std::optional<float> focus;           // distance; not given: of what is at the picture's middle
     std::uint32_t settle = 128;           // frames before the first picture; Integrator::Cache and Cones
     bool aovs = false;                    // writes what the picture shows beside its light, too; Integrator::Path
     std::optional<std::pair<std::uint32_t, std::uint32_t>> frames; // first and last
+    bool turntable = false;                                        // frames are those of a camera that turns
+    std::optional<std::uint32_t> quality;                          // of .jpg and .webp
     std::optional<TreeStructure> structure; // of the static part; not given: an octree, or the file's
     bool rebuild = false;                   // voxelizes everything for each picture, instead of merging dynamic objects
 
@@ -69,7 +73,7 @@ struct RenderOptions
 /// `zvo render`: voxelizes scenes and writes a picture of them, or a series. Throws Error.
 void render(const RenderOptions& options);
 
-/// Throws Error{Usage} if options have no effect with the integrator.
+/// Throws Error{Usage} if options have no effect with the integrator, or the output.
 void checkIntegratorOptions(const RenderOptions& options);
 
 /// Throws Error{Usage} if options have no effect on the tree of a file.

@@ -30,7 +30,9 @@ namespace zvo::cli
 namespace
 {
 
-/// The camera of each picture.
+using Cameras = std::vector<ViewCamera>; // one, or those of a sheet
+
+/// The cameras of each picture.
 class CameraWork
 {
 public:
@@ -42,12 +44,12 @@ public:
         }
     }
 
-    /// The camera of the frame with that number. start: used if there is no path.
-    [[nodiscard]] ViewCamera at(std::uint32_t number, double frames_per_second, const ViewCamera& start) const
+    /// The cameras of the frame with that number. start: used if there is no path.
+    [[nodiscard]] Cameras at(std::uint32_t number, double frames_per_second, const Cameras& start) const
     {
         return !m_path            ? start
-               : m_options.frames ? m_path->at(number / frames_per_second)
-                                  : m_path->at(m_options.voxels.time.value_or(0.0));
+               : m_options.frames ? Cameras{m_path->at(number / frames_per_second)}
+                                  : Cameras{m_path->at(m_options.voxels.time.value_or(0.0))};
     }
 
     [[nodiscard]] bool flies() const { return m_path.has_value(); }
@@ -69,25 +71,25 @@ public:
 
     [[nodiscard]] vk::HeadlessDevice& device() { return m_device; }
 
-    // Shows a static scene; the camera orbits or flies.
-    void turn(Scene&& scene, const Grid& grid, const ViewCamera& camera, const glm::dvec3& center)
+    // Shows a static scene; the cameras orbit or fly.
+    void turn(Scene&& scene, const Grid& grid, const Cameras& cameras, const glm::dvec3& center)
     {
         const auto report = [&](const BuildResult& built) { m_report.addOctree(built, m_triangle_count); };
-        turn(makeTree(std::move(scene), grid, report), camera, center);
+        turn(makeTree(std::move(scene), grid, report), cameras, center);
     }
 
     // Does the same with the tree of a file.
-    void turn(TreeData&& tree, const ViewCamera& camera, const glm::dvec3& center)
+    void turn(TreeData&& tree, const Cameras& cameras, const glm::dvec3& center)
     {
         m_progress.begin("copying to the device");
         m_report.addFile(tree);
         const DeviceTree uploaded = uploadTree(m_device, tree);
         tree = {};
-        turn(uploaded, camera, center);
+        turn(uploaded, cameras, center);
     }
 
     // Voxelizes the static part once, and merges dynamic objects with it at each time.
-    void play(AnimatedScene&& animated, const Grid& grid, const ViewCamera& camera)
+    void play(AnimatedScene&& animated, const Grid& grid, const Cameras& cameras)
     {
         m_progress.begin("voxelizing what stands still");
         LiveScene scene(m_device, std::move(animated), grid,
@@ -110,13 +112,13 @@ public:
                 m_report.addNodePaths(paths_passes);
             }
             m_has_warned = m_has_warned || warnOfDroppedTriangles(seconds, update.report.dropped);
-            draw(i, m_camera_work.at(m_pictures.number(i), scene.animated().frames_per_second, camera));
+            draw(i, m_camera_work.at(m_pictures.number(i), scene.animated().frames_per_second, cameras));
             m_report.addFrame(updateFrame(m_pictures.number(i), seconds, update));
         }
     }
 
     // Voxelizes everything anew at each time.
-    void rebuild(const AnimatedScene& animated, const Grid& grid, const ViewCamera& camera)
+    void rebuild(const AnimatedScene& animated, const Grid& grid, const Cameras& cameras)
     {
         for (std::uint32_t i = 0; goesOn(i); ++i)
         {
@@ -140,14 +142,15 @@ public:
             {
                 m_report.addNodePaths(paths_passes);
             }
-            draw(i, m_camera_work.at(m_pictures.number(i), animated.frames_per_second, camera));
+            draw(i, m_camera_work.at(m_pictures.number(i), animated.frames_per_second, cameras));
             m_report.addFrame(std::move(frame));
         }
     }
 
-    // Completes the report after all pictures.
+    // Completes the pictures and the report.
     void finish(std::optional<Output>& file)
     {
+        m_pictures.finish();
         if (file)
         {
             writeReport(*file, m_report.json(m_renderer.cappedRays(), m_renderer.cache()));
@@ -156,15 +159,18 @@ public:
     }
 
 private:
-    void turn(const DeviceTree& tree, const ViewCamera& camera, const glm::dvec3& center)
+    void turn(const DeviceTree& tree, const Cameras& cameras, const glm::dvec3& center)
     {
         m_report.addNodePaths(m_renderer.show(tree));
         for (std::uint32_t i = 0; goesOn(i); ++i)
         {
             const double turn = 2.0 * std::numbers::pi * m_pictures.number(i) / m_pictures.count();
-            draw(i, m_camera_work.flies()
-                        ? m_camera_work.at(m_pictures.number(i), AnimatedScene().frames_per_second, camera)
-                        : camera.turnedAround(center, turn));
+            Cameras turned = m_camera_work.at(m_pictures.number(i), AnimatedScene().frames_per_second, cameras);
+            for (ViewCamera& camera : turned)
+            {
+                camera = m_camera_work.flies() ? camera : camera.turnedAround(center, turn);
+            }
+            draw(i, turned);
         }
     }
 
@@ -206,11 +212,11 @@ private:
         return std::move(part.tree);
     }
 
-    void draw(std::uint32_t index, const ViewCamera& camera)
+    void draw(std::uint32_t index, const Cameras& cameras)
     {
         m_progress.begin("tracing");
         PictureTimes times;
-        const std::vector<std::uint8_t> picture = m_renderer.render(camera, m_progress, times);
+        const Picture picture = m_renderer.render(cameras, m_progress, times);
         m_report.addPicture(std::move(times));
         checkValidation(m_device);
         m_pictures.write(index, picture);
@@ -228,6 +234,19 @@ private:
     bool m_has_warned = false;          // of dropped triangles, which may occur in every frame
 };
 
+// The cameras that options ask for, which show subject. animated: has the scene's own cameras.
+Cameras chooseCameras(const RenderOptions& options, const AnimatedScene& animated, const Bounds& subject)
+{
+    const SheetLayout layout = layoutOf(options);
+    const double aspect = static_cast<double>(layout.width) / layout.height;
+    Cameras cameras;
+    for (const std::string& name : options.sheet)
+    {
+        cameras.push_back(chooseCamera(name, animated, subject, aspect));
+    }
+    return cameras.empty() ? Cameras{chooseCamera(options.camera, animated, subject, aspect)} : cameras;
+}
+
 void renderTree(const RenderOptions& options, const CameraWork& camera_work, Pictures& pictures,
                 std::optional<Output>& report)
 {
@@ -241,9 +260,8 @@ void renderTree(const RenderOptions& options, const CameraWork& camera_work, Pic
         talk("warning: the file has no voxels");
     }
     const Bounds subject = subjectOf(boundsOf(tree), tree.grid);
-    const ViewCamera camera =
-        chooseCamera(options.camera, Scene(), subject, static_cast<double>(options.width) / options.height);
-    run.turn(std::move(tree), camera, 0.5 * (glm::dvec3(subject.min) + glm::dvec3(subject.max)));
+    const Cameras cameras = chooseCameras(options, AnimatedScene(), subject);
+    run.turn(std::move(tree), cameras, 0.5 * (glm::dvec3(subject.min) + glm::dvec3(subject.max)));
     run.finish(report);
 }
 
@@ -280,9 +298,9 @@ void render(const RenderOptions& options)
         voxels.time.reset(); // only the camera moves, so the time is its own
     }
     AnimatedScene animated = loadAnimatedSceneWithWarnings(
-        voxels, options.frames || options.voxels.time,
+        voxels, (options.frames && !options.turntable) || options.voxels.time,
         options.rebuild ? ImageDecoding::WhenLoaded : ImageDecoding::WhenUploaded); // once for all frames
-    const bool moves = !animated.objects.empty();
+    const bool moves = !animated.objects.empty() && !options.turntable;
     const std::uint32_t compressions = options.structure == TreeStructure::Svdag ? 1 : 0;
     progress.expect(!moves            ? 3 + compressions + pictures.count()
                     : options.rebuild ? 1 + (3 + compressions) * pictures.count()
@@ -291,22 +309,24 @@ void render(const RenderOptions& options)
     const Bounds bounds = boundsOverTime(animated);
     const Grid grid = placeGrid(options.voxels, animated, bounds);
     const Bounds subject = subjectOf(animated, bounds, grid);
-    const ViewCamera camera =
-        chooseCamera(options.camera, animated, subject, static_cast<double>(options.width) / options.height);
+    const Cameras cameras = chooseCameras(options, animated, subject);
+    pictures.setFrameRate(animated.frames_per_second);
 
     RenderRun run(options, camera_work, pictures, progress);
     if (moves && options.rebuild)
     {
         warnOfMergeRule(animated);
-        run.rebuild(animated, grid, camera);
+        run.rebuild(animated, grid, cameras);
     }
     else if (moves)
     {
-        run.play(std::move(animated), grid, camera);
+        run.play(std::move(animated), grid, cameras);
     }
     else
     {
-        run.turn(std::move(animated.fixed), grid, camera, 0.5 * (glm::dvec3(subject.min) + glm::dvec3(subject.max)));
+        const double seconds = loopedTime(animated, options.voxels.time.value_or(0.0));
+        run.turn(sceneAt(std::move(animated), seconds), grid, cameras,
+                 0.5 * (glm::dvec3(subject.min) + glm::dvec3(subject.max)));
     }
     run.finish(report);
 }

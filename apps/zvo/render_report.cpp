@@ -4,6 +4,7 @@
 #include "common/names.h"
 #include "common/progress.h"
 #include "common/session.h"
+#include "common/words.h"
 #include "core/file/zvo_file.h"
 #include "runtime/octree_sha256.h"
 
@@ -25,9 +26,10 @@ Json updateFrame(std::uint32_t number, double seconds, const LiveUpdate& update)
 
 void RenderReport::addOctree(const BuildResult& result, std::uint64_t triangle_count)
 {
-    m_built = fmt::format("{} voxels of {}^3 from {} triangles; voxelize {:.1f} ms, build {:.1f} ms",
-                          result.octree.voxel_count, result.octree.grid.resolution(), triangle_count,
-                          result.operationMs("voxelize"), result.operationMs("octree"));
+    m_built =
+        fmt::format("{} of {}^3 from {}; voxelize {:.1f} ms, build {:.1f} ms",
+                    counted(result.octree.voxel_count, "voxel"), result.octree.grid.resolution(),
+                    counted(triangle_count, "triangle"), result.operationMs("voxelize"), result.operationMs("octree"));
     if (!m_options.output.json.empty())
     {
         m_json = octreeJson("zvo.render/1", m_device.device().report(), m_options.voxels, triangle_count, result,
@@ -47,7 +49,8 @@ void RenderReport::addDag(const StaticPart& part)
 
 void RenderReport::addFile(const TreeData& tree)
 {
-    m_built = fmt::format("{} voxels of {}^3 in {} nodes", tree.voxel_count, tree.grid.resolution(), tree.nodes.size());
+    m_built = fmt::format("{} of {}^3 in {}", counted(tree.voxel_count, "voxel"), tree.grid.resolution(),
+                          counted(tree.nodes.size(), "node"));
     m_json = headJson("zvo.render_tree/1", m_device.device().report());
     m_json["structure"] = structureName(tree.structure);
     m_json["grid"] = gridJson(tree.grid);
@@ -65,10 +68,10 @@ void RenderReport::addAnimatedScene(const LiveScene& scene, const LiveUpdate& up
     const std::uint64_t triangle_count = part.triangle_count + scene.info().moving_triangle_count;
     const double voxelize_ms = operationMs(part.passes, "voxelize");
     const double build_ms = operationMs(part.passes, "octree");
-    m_built = fmt::format("{} static and {} dynamic voxels of {}^3 from {} triangles; voxelize {:.1f} ms, build "
-                          "{:.1f} ms, update {:.1f} ms",
-                          part.voxel_count, update.report.dynamic_count, grid.resolution(), triangle_count, voxelize_ms,
-                          build_ms, sumMs(update.passes));
+    m_built = fmt::format("{} static and {} dynamic voxels of {}^3 from {}; voxelize {:.1f} ms, build {:.1f} ms, "
+                          "update {:.1f} ms",
+                          part.voxel_count, update.report.dynamic_count, grid.resolution(),
+                          counted(triangle_count, "triangle"), voxelize_ms, build_ms, sumMs(update.passes));
     m_json = headJson("zvo.render_dynamic/1", m_device.device().report(), m_options.voxels, grid);
     m_json["merge"] = nameOf(kMergeRules, scene.animated().merge);
     m_json["scene"] = {{"triangles_static", part.triangle_count},
@@ -192,7 +195,7 @@ Json RenderReport::pathsJson() const
     json["bounces"] = frame.path.bounces;
     json["form"] = nameOf(kPathForms, form);
     json["aperture"] = frame.path.lens_radius;
-    json["focus"] = frame.path.focus_distance;
+    json["focus"] = m_times.front().focus.value_or(frame.path.focus_distance);
     json["denoise"] = frame.denoise;
     return json;
 }
@@ -209,32 +212,33 @@ Json RenderReport::cacheJson(const DeviceRadianceCache& cache) const
     return json;
 }
 
-const char* RenderReport::sampleName() const
+std::string RenderReport::countedSamples(std::uint32_t count) const
 {
     const Integrator integrator = m_options.frame.integrator;
-    return integrator == Integrator::Primary ? "samples a pixel"
-           : integrator == Integrator::Path  ? "paths a pixel"
-                                             : "frames";
+    return integrator == Integrator::Primary ? counted(count, "sample") + " a pixel"
+           : integrator == Integrator::Path  ? counted(count, "path") + " a pixel"
+                                             : counted(count, "frame");
 }
 
 void RenderReport::tell(std::uint32_t picture_count, std::uint64_t capped_rays) const
 {
     if (m_times.size() < picture_count)
     {
-        talk(fmt::format("stopped after {} of {} pictures", m_times.size(), picture_count));
+        tellRun(fmt::format("stopped after {} of {} pictures", m_times.size(), picture_count));
     }
     if (capped_rays != 0)
     {
-        talk(fmt::format("warning: {} rays took too many steps and were given up", capped_rays));
+        talk(fmt::format("warning: {} took too many steps and {} given up", counted(capped_rays, "ray"),
+                         capped_rays == 1 ? "was" : "were"));
     }
     if (m_times.front().samples != 0)
     {
-        talk(fmt::format("{}; {} {} in {:.1f} ms on {}", m_built, m_times.front().samples, sampleName(),
-                         m_times.front().trace_ms, m_device.device().report().name));
+        tellRun(fmt::format("{}; {} in {:.1f} ms on {}", m_built, countedSamples(m_times.front().samples),
+                            m_times.front().trace_ms, m_device.device().report().name));
         return;
     }
-    talk(fmt::format("{}; trace {:.1f} ms, light and shade {:.1f} ms on {}", m_built, m_times.front().trace_ms,
-                     m_times.front().shade_ms, m_device.device().report().name));
+    tellRun(fmt::format("{}; trace {:.1f} ms, light and shade {:.1f} ms on {}", m_built, m_times.front().trace_ms,
+                        m_times.front().shade_ms, m_device.device().report().name));
 }
 
 } // namespace zvo::cli

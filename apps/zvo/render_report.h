@@ -63,7 +63,7 @@ private:
     [[nodiscard]] Json pathsJson() const;
     [[nodiscard]] Json cacheJson(const DeviceRadianceCache& cache) const;
     [[nodiscard]] Json samplesJson() const;
-    [[nodiscard]] const char* sampleName() const;
+    [[nodiscard]] std::string countedSamples(std::uint32_t count) const;
 
     const RenderOptions& m_options;
     vk::HeadlessDevice& m_device;

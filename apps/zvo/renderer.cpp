@@ -2,6 +2,7 @@
 #include "renderer.h"
 
 #include "common/environment_input.h"
+#include "common/focus.h"
 #include "common/output.h"
 #include "common/report.h"
 #include "core/path/aov.h"
@@ -11,6 +12,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <string>
 #include <utility>
 
@@ -56,8 +58,19 @@ FrameOptions frameOptions(const RenderOptions& options)
 
 } // namespace
 
+void PictureTimes::add(PictureTimes&& part)
+{
+    append(passes, part.passes);
+    trace_ms += part.trace_ms;
+    shade_ms += part.shade_ms;
+    samples = samples == 0 ? part.samples : std::min(samples, part.samples);
+    exposure = exposure ? exposure : part.exposure;
+    focus = focus ? focus : part.focus;
+}
+
 Renderer::Renderer(vk::HeadlessDevice& device, const RenderOptions& options)
-    : m_device(device), m_options(options), m_frame(frameOptions(options)), m_renderer(device.device())
+    : m_device(device), m_options(options), m_layout(layoutOf(options)), m_frame(frameOptions(options)),
+      m_renderer(device.device())
 {
     if (options.frame.integrator != Integrator::Primary)
     {
@@ -80,7 +93,7 @@ void Renderer::setSize()
 {
     try
     {
-        m_renderer.resize(m_options.width, m_options.height);
+        m_renderer.resize(m_layout.width, m_layout.height);
         m_renderer.reserve(*m_tree, m_frame);
     }
     catch (const Error& error)
@@ -98,12 +111,31 @@ void Renderer::setSize()
     }
 }
 
-std::vector<std::uint8_t> Renderer::render(const ViewCamera& view, Progress& progress, PictureTimes& times)
+Picture Renderer::render(std::span<const ViewCamera> views, Progress& progress, PictureTimes& times)
 {
-    m_camera_before = std::exchange(m_camera, traceCamera(view, m_tree->grid, m_options.height));
+    if (views.size() == 1)
+    {
+        return renderView(views.front(), progress, times);
+    }
+    constexpr std::uint32_t kBlack = 0xffU << 24U;
+    Picture sheet = {m_options.width, m_options.height, {}, {}};
+    sheet.texels.assign(std::size_t{sheet.width} * sheet.height, kBlack);
+    for (std::uint32_t i = 0; i < views.size(); ++i)
+    {
+        PictureTimes view_times;
+        placeView(m_layout, i, renderView(views[i], progress, view_times), sheet);
+        times.add(std::move(view_times));
+        m_renderer.forgetSamples(); // another view has none that help to denoise
+    }
+    return sheet;
+}
+
+Picture Renderer::renderView(const ViewCamera& view, Progress& progress, PictureTimes& times)
+{
+    m_camera_before = std::exchange(m_camera, traceCamera(view, m_tree->grid, m_layout.height));
     if (m_frame.hasSamples())
     {
-        if (std::optional<std::vector<std::uint8_t>> picture = renderSamplesOrWarn(progress, times))
+        if (std::optional<Picture> picture = renderSamplesOrWarn(progress, times))
         {
             return std::move(*picture);
         }
@@ -120,18 +152,18 @@ FrameSubject Renderer::subject()
     return {*m_tree, *m_camera, m_environment ? &*m_environment : nullptr};
 }
 
-std::vector<std::uint8_t> Renderer::renderAtOnce(PictureTimes& times)
+Picture Renderer::renderAtOnce(PictureTimes& times)
 {
     times.passes = m_device.run([&](vk::FrameGraph& graph) { m_renderer.render(graph, subject(), m_frame); });
     times.trace_ms = primaryMs(times.passes);
     times.shade_ms = sumMs(times.passes) - times.trace_ms;
     m_capped_rays += m_device.download(m_renderer.buffers().status).front().capped_rays;
-    return encodePicture();
+    return downloadPicture();
 }
 
 // The picture whose light is computed by samples; nothing, with a warning, if there is no room for a radiance
 // cache.
-std::optional<std::vector<std::uint8_t>> Renderer::renderSamplesOrWarn(Progress& progress, PictureTimes& times)
+std::optional<Picture> Renderer::renderSamplesOrWarn(Progress& progress, PictureTimes& times)
 {
     try
     {
@@ -139,8 +171,7 @@ std::optional<std::vector<std::uint8_t>> Renderer::renderSamplesOrWarn(Progress&
     }
     catch (const Error& error)
     {
-        if (error.code() != ErrorCode::Memory || !usesCache(m_frame.integrator) ||
-            extensionOf(m_options.output.path) != ".png")
+        if (error.code() != ErrorCode::Memory || !usesCache(m_frame.integrator) || holdsRadiance(m_options.output.path))
         {
             throw;
         }
@@ -150,20 +181,21 @@ std::optional<std::vector<std::uint8_t>> Renderer::renderSamplesOrWarn(Progress&
     }
 }
 
-std::vector<std::uint8_t> Renderer::renderSamples(Progress& progress, PictureTimes& times)
+Picture Renderer::renderSamples(Progress& progress, PictureTimes& times)
 {
     const Clock::time_point begin = Clock::now();
     setSize();
     if (!m_watch)
     {
         m_watch.emplace();
-        if (m_environment && m_options.environment.map == "none" && !m_options.to_sun && !hasEmission(*m_tree))
-        {
-            talk("warning: nothing gives off light: the scene has no emissive voxels, --environment is none, and there "
-                 "is no --sun");
-        }
-        settle(progress, times);
+        warnOfDarkness();
     }
+    if (m_settled_views < m_layout.view_count)
+    {
+        settle(progress, times);
+        ++m_settled_views;
+    }
+    focus(times);
     addSamples(begin, progress, times);
     if (m_frame.denoise)
     {
@@ -175,7 +207,33 @@ std::vector<std::uint8_t> Renderer::renderSamples(Progress& progress, PictureTim
         const auto& status = usesCache(m_frame.integrator) ? m_renderer.cache().status() : m_renderer.pathStatus();
         m_capped_rays = m_device.download(status).front().capped_rays; // of all pictures so far
     }
-    return encodeSamples(times);
+    return downloadSamples(times);
+}
+
+void Renderer::warnOfDarkness()
+{
+    if (m_environment && m_options.environment.map == "none" && !m_options.to_sun && !hasEmission(*m_tree))
+    {
+        talk("warning: nothing gives off light: the scene has no emissive voxels, --environment is none, and there "
+             "is no --sun");
+    }
+}
+
+// Where the camera has a lens and nobody said what is sharp, it is what is at the middle of the picture.
+void Renderer::focus(PictureTimes& times)
+{
+    if (m_frame.integrator != Integrator::Path || m_frame.path.lens_radius == 0.0F)
+    {
+        return;
+    }
+    times.focus = m_options.focus ? m_options.focus : distanceAtMiddle(m_device, *m_tree, *m_camera);
+    if (!times.focus)
+    {
+        times.focus = m_tree->grid.voxel_size * static_cast<float>(m_tree->grid.resolution());
+        talk(fmt::format("warning: nothing is at the picture's middle; sharp is what is {:g} away, as --focus can say",
+                         *times.focus));
+    }
+    m_frame.path.focus_distance = *times.focus;
 }
 
 // Brings the radiance cache up to date before the first picture.
@@ -215,33 +273,35 @@ void Renderer::addSamples(Clock::time_point begin, Progress& progress, PictureTi
     }
     if (times.samples < asked)
     {
-        talk(fmt::format("stopped after {} of {} samples a pixel", times.samples, asked));
+        tellRun(fmt::format("stopped after {} of {} samples a pixel", times.samples, asked));
     }
 }
 
-std::vector<std::uint8_t> Renderer::encodePicture()
+Picture Renderer::downloadPicture()
 {
     const TraceBuffers& buffers = m_renderer.buffers();
-    const std::vector<gpu::uint> texels = m_device.download(buffers.image);
-    return encodePng(buffers.width, buffers.height,
-                     {reinterpret_cast<const std::uint8_t*>(texels.data()), texels.size() * sizeof(gpu::uint)});
+    return {buffers.width, buffers.height, m_device.download(buffers.image), {}};
 }
 
-std::vector<std::uint8_t> Renderer::encodeSamples(PictureTimes& times)
+Picture Renderer::downloadSamples(PictureTimes& times)
 {
     if (holdsRadiance(m_options.output.path))
     {
         const SampledPicture picture = m_renderer.samples(m_frame);
         const HdrImage image =
             pictureOf(m_device.download(picture.sums), picture.width, picture.height, picture.sample_count);
-        return extensionOf(m_options.output.path) == ".hdr" ? encodeHdr(image)
-               : m_options.aovs                             ? encodeWithAovs(image)
-                                                            : encodeExr(image);
+        const bool is_hdr = extensionOf(m_options.output.path) == ".hdr";
+        return {image.width,
+                image.height,
+                {},
+                is_hdr           ? encodeHdr(image)
+                : m_options.aovs ? encodeWithAovs(image)
+                                 : encodeExr(image)};
     }
     m_device.run([&](vk::FrameGraph& graph) { m_renderer.develop(graph, m_frame); });
     times.exposure = m_device.download(m_renderer.exposure()).front();
     m_frame.exposure = {.automatic = false, .factor = *times.exposure}; // of a sequence, which would flicker otherwise
-    return encodePicture();
+    return downloadPicture();
 }
 
 std::vector<std::uint8_t> Renderer::encodeWithAovs(const HdrImage& image)

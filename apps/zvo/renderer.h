@@ -5,11 +5,14 @@
 #include "common/progress.h"
 #include "common/signals.h"
 #include "core/frame/frame_renderer.h"
+#include "picture.h"
+#include "sheet.h"
 #include "vk/headless.h"
 
 #include <chrono>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
 namespace zvo::cli
@@ -23,6 +26,10 @@ struct PictureTimes
     double shade_ms = 0;           // shadow and occlusion rays, and colour
     std::uint32_t samples = 0;     // a pixel; 0: the picture has none, otherwise all is in trace_ms
     std::optional<float> exposure; // of samples; nothing where the picture holds radiance as it is
+    std::optional<float> focus;    // where the camera has a lens: the distance that is sharp
+
+    /// Adds those of a part of the picture.
+    void add(PictureTimes&& part);
 };
 
 /// Renders pictures of one size, of one or several octrees or DAGs, and waits for each. The buffers are made for the
@@ -37,9 +44,9 @@ public:
     /// Returns the passes that were needed. Throws Error{Memory} for a picture that is too large.
     std::vector<vk::PassTime> show(const DeviceTree& tree);
 
-    /// The picture as a file: a PNG, or of samples what the output's name tells. Of samples, stops early at the time
-    /// limit, or when the user interrupts; then the picture shows those so far.
-    std::vector<std::uint8_t> render(const ViewCamera& view, Progress& progress, PictureTimes& times);
+    /// The picture of a view, or the sheet of several: pixels, or of samples what the output's name tells. Of samples,
+    /// stops early at the time limit, or when the user interrupts; then the picture shows those so far.
+    Picture render(std::span<const ViewCamera> views, Progress& progress, PictureTimes& times);
 
     /// Whether the user has interrupted a picture: then no other one should begin.
     [[nodiscard]] bool interrupted() const { return m_watch && m_watch->interrupted(); }
@@ -58,17 +65,21 @@ private:
 
     void setSize();
     [[nodiscard]] FrameSubject subject();
-    std::vector<std::uint8_t> renderAtOnce(PictureTimes& times);
-    std::optional<std::vector<std::uint8_t>> renderSamplesOrWarn(Progress& progress, PictureTimes& times);
-    std::vector<std::uint8_t> renderSamples(Progress& progress, PictureTimes& times);
+    Picture renderView(const ViewCamera& view, Progress& progress, PictureTimes& times);
+    Picture renderAtOnce(PictureTimes& times);
+    std::optional<Picture> renderSamplesOrWarn(Progress& progress, PictureTimes& times);
+    Picture renderSamples(Progress& progress, PictureTimes& times);
+    void warnOfDarkness();
+    void focus(PictureTimes& times);
     void settle(Progress& progress, PictureTimes& times);
     void addSamples(Clock::time_point begin, Progress& progress, PictureTimes& times);
-    std::vector<std::uint8_t> encodePicture();
-    std::vector<std::uint8_t> encodeSamples(PictureTimes& times);
+    Picture downloadPicture();
+    Picture downloadSamples(PictureTimes& times);
     [[nodiscard]] std::vector<std::uint8_t> encodeWithAovs(const HdrImage& image);
 
     vk::HeadlessDevice& m_device;
     const RenderOptions& m_options;
+    SheetLayout m_layout;
     FrameOptions m_frame;
     FrameRenderer m_renderer;
     std::optional<DeviceEnvironment> m_environment; // nothing for Integrator::Primary
@@ -76,6 +87,7 @@ private:
     const DeviceTree* m_tree = nullptr;             // the tree that is shown
     std::optional<TraceCamera> m_camera;            // of the last picture
     std::optional<TraceCamera> m_camera_before;     // of the one before
+    std::uint32_t m_settled_views = 0;
     std::uint64_t m_capped_rays = 0;
 };
 

@@ -6,8 +6,8 @@
 #include "common/option_groups.h"
 #include "common/output.h"
 #include "common/parse.h"
+#include "common/progress.h"
 #include "common/run_program.h"
-#include "common/tree_input.h"
 #include "common/view.h"
 #include "zvo/error.h"
 
@@ -34,7 +34,7 @@ Examples:
   zvo build bunny.glb --resolution 2048 -o bunny.zvo
   zvo info
 
-'zvo COMMAND --help' tells the options of a command.
+'zvo help COMMAND' tells the options of a command.
 Exit codes: 0 success, 2 usage, 3 input, 4 output, 5 no usable device, 6 memory, 1 anything else.)";
 
 constexpr const char* kRenderFooter = R"(
@@ -42,7 +42,8 @@ Examples:
   zvo render scenes/atrium.glb -o atrium.png --json atrium.json
   zvo render bunny.glb -o bunny.png --resolution 1024 --view normal
   zvo render room.glb lamp.glb -o room.png --camera 4,2,5,0,1,0,60 --occlusion 16
-  zvo render helmet.glb -o 'turn_###.png' --frames 0..35 -f
+  zvo render helmet.glb -o turn.webp --turntable 36 -f
+  zvo render helmet.glb -o sheet.png --sheet front,right,top,iso
   zvo render scenes/atrium_knot.scene.json -o 'frame_####.png' --frames 0..119 --structure svdag
   zvo render scenes/atrium.glb -o 'fly_####.png' --camera-path flight.json --frames 0..89
   zvo render scenes/cornell_box.glb -o box.png --integrator path --spp 256
@@ -112,15 +113,16 @@ void addPathOptions(CLI::App& render, RenderOptions& options)
     addValue(render, "--seed", path.seed, integerIn(0, UINT32_MAX), "N",
              fmt::format("of the paths' random numbers, 0 to {} (default 0)", UINT32_MAX));
     addValue(render, "--settle", options.settle, integerIn(0, 1U << 24), "N",
-             fmt::format("frames of --integrator cache before the first picture, 0 to {} (default 128)", 1U << 24));
+             fmt::format("frames of --integrator cache before the first picture, 0 to {} (default {})", 1U << 24,
+                         options.settle));
     addValue(render, "--rays", options.frame.radiance.faces, integerIn(1, kRadianceFacesMax), "N",
              fmt::format("faces that a frame of --integrator cache samples at most, 1 to {} (default 16384): each "
                          "takes up to two rays and two shadow rays",
                          kRadianceFacesMax));
     addValue(render, "--aperture", path.lens_radius, parsePositive, "RADIUS",
              "radius of the lens of the camera, in world units (default: a pinhole)");
-    addValue(render, "--focus", path.focus_distance, parsePositive, "DISTANCE",
-             "distance of the plane that is in focus, in world units (default 1)");
+    addValue(render, "--focus", options.focus, parsePositive, "DISTANCE",
+             "distance of the plane that is in focus, in world units (default: of what is at the picture's middle)");
     addValue(
         render, "--environment", options.environment.map, parsePath, "FILE",
         "a map of the light from all directions, .hdr or .exr, in place of sun and sky, or none for no light; --sun "
@@ -153,11 +155,15 @@ void addOptions(CLI::App& render, RenderOptions& options)
             "pixels of the picture (default 1280x720)")
         ->type_name("WxH");
     addCameraOption(render, options.camera);
+    addValue(render, "--sheet", options.sheet, parseNames, "NAME,NAME,...",
+             "several cameras of --camera, by their names, in one picture, such as front,right,top,iso")
+        ->excludes("--camera");
     addValue(
         render, "--camera-path", options.camera_path, parsePath, "FILE",
         "a camera that flies along the keys in a JSON file; of --frames, frame N at N / frames_per_second seconds, or "
         "at --time")
-        ->excludes("--camera");
+        ->excludes("--camera")
+        ->excludes("--sheet");
     addNamed(render, "--view", options.frame.trace.view, kViews, viewHelp())->type_name("VIEW");
     addValue(
         render, "--occlusion", options.frame.trace.occlusion_rays, integerIn(0, kOcclusionRaysMax), "RAYS",
@@ -173,8 +179,19 @@ void addOptions(CLI::App& render, RenderOptions& options)
              "rays stop at octree nodes up to this many pixels wide (default: they go on to voxels)");
     addValue(render, "--frames", options.frames, parseFrames, "A..B",
              "pictures of a scene in which something moves, frame N at N / frames_per_second seconds; of any other "
-             "scene, a camera that turns once around it; #### in the output's name becomes the frame's number")
+             "scene, a camera that turns once around it; #### in the output's name becomes the frame's number; a .webp "
+             "without that has all of them")
         ->excludes("--time");
+    addValue(
+        render, "--turntable", options.frames,
+        [&options](std::string_view option, std::string_view text)
+        {
+            options.turntable = true;
+            return parseFrameCount(option, text);
+        },
+        "N", "as --frames 0..N-1 of a camera that turns once around; what moves stands as at --time")
+        ->excludes("--frames")
+        ->excludes("--camera-path");
     addStructureOption(
         render, options.structure,
         "trace an octree, or a DAG, which has equal subtrees once; what moves is merged with either (default svo)");
@@ -182,7 +199,11 @@ void addOptions(CLI::App& render, RenderOptions& options)
                     "voxelize everything anew for each picture of a scene in which something moves, instead of "
                     "merging what moves with what stands still");
     addOutputOptions(render, options.output,
-                     "the picture, a .png file, or of paths an .exr or .hdr file; - is standard output, of a .png");
+                     "the picture, a .png, .jpg or .webp file, or of paths an .exr or .hdr file; - is standard output, "
+                     "of a .png");
+    addValue(render, "--quality", options.quality, integerIn(1, 100), "N",
+             "of a .jpg or .webp, 1 to 100 (default 90); a .webp of 100 loses nothing")
+        ->group("Output");
     addDeviceOptions(render, options.device);
 }
 
@@ -245,6 +266,7 @@ void addOptions(CLI::App& convert, ConvertOptions& options)
         },
         "FORMAT", "what to write: ply, vox, morton, glb, nvdb or zvo (default: as the output's extension says)")
         ->group("Output");
+    addQuietOption(convert);
     addDeviceOptions(convert, options.device);
 }
 
@@ -256,107 +278,9 @@ void addOptions(CLI::App& info, InfoOptions& options)
 
 } // namespace
 
-void checkTreeOptions(const RenderOptions& options)
-{
-    const VoxelOptions& voxels = options.voxels;
-    const VoxelOptions plain;
-    if (voxels.scenes.size() > 1)
-    {
-        throw Error(ErrorCode::Usage, fmt::format("{} stands alone; build one .zvo file of all that is to be seen",
-                                                  std::ranges::find_if(voxels.scenes, isTreeFile)->string()));
-    }
-    const std::pair<const char*, bool> given[] = {
-        {"--up", voxels.load.up != plain.load.up},
-        {"--scale", voxels.load.scale != plain.load.scale},
-        {"--skip-material", !voxels.load.skip_materials.empty()},
-        {"--keep-hulls", voxels.load.keep_hulls},
-        {"--strict", voxels.load.strict},
-        {"--scenes", voxels.scenes_folder.has_value()},
-        {"--time", voxels.time.has_value() && !options.camera_path},
-        {"--resolution", voxels.depth.has_value()},
-        {"--coverage", voxels.coverage != plain.coverage},
-        {"--attributes", voxels.attributes != plain.attributes},
-        {"--bounds", voxels.bounds.has_value()},
-        {"--grid", voxels.grid_position.has_value()},
-        {"--structure", options.structure.has_value()},
-        {"--rebuild", options.rebuild},
-    };
-    for (const auto& [name, is_given] : given)
-    {
-        if (is_given)
-        {
-            throw Error(ErrorCode::Usage, fmt::format("{} does not go with {}, whose voxels are made already", name,
-                                                      voxels.scenes.front().string()));
-        }
-    }
-}
-
-void checkIntegratorOptions(const RenderOptions& options)
-{
-    using Integrators = std::initializer_list<Integrator>;
-    const Integrators of_paths = {Integrator::Path};
-    const Integrators of_cache = {Integrator::Cache, Integrator::Cones};
-    const Integrators of_light = {Integrator::Path, Integrator::Cache, Integrator::Cones};
-    const Integrators of_primary = {Integrator::Primary};
-    const RenderOptions plain;
-    const FrameOptions& frame = options.frame;
-    const EnvironmentOptions& environment = options.environment;
-    const std::tuple<const char*, bool, Integrators> given[] = {
-        {"--bounces", frame.path.bounces != plain.frame.path.bounces, of_paths},
-        {"--seed", frame.path.seed != plain.frame.path.seed, of_light},
-        {"--settle", options.settle != plain.settle, of_cache},
-        {"--rays", frame.radiance != plain.frame.radiance, of_cache},
-        {"--aperture", frame.path.lens_radius != plain.frame.path.lens_radius, of_paths},
-        {"--focus", frame.path.focus_distance != plain.frame.path.focus_distance, of_paths},
-        {"--environment", environment.map.has_value(), of_light},
-        {"--environment-turn", environment.turn != plain.environment.turn, of_light},
-        {"--environment-strength", environment.strength != plain.environment.strength, of_light},
-        {"--denoise", frame.denoise, of_paths},
-        {"--aov", options.aovs, of_paths},
-        {"--path-form", frame.path_form.has_value(), of_paths},
-        {"--view", frame.trace.view != plain.frame.trace.view, of_primary},
-        {"--occlusion", frame.trace.occlusion_rays != plain.frame.trace.occlusion_rays, of_primary},
-        {"--detail", frame.trace.detail_pixels != plain.frame.trace.detail_pixels, of_primary},
-    };
-    for (const auto& [name, is_given, integrators] : given)
-    {
-        if (is_given && std::find(integrators.begin(), integrators.end(), frame.integrator) == integrators.end())
-        {
-            const std::string_view first = nameOf(kIntegrators, *integrators.begin());
-            throw Error(ErrorCode::Usage, integrators.size() == 1 && first == "primary"
-                                              ? fmt::format("{} does not go with --integrator {}", name,
-                                                            nameOf(kIntegrators, frame.integrator))
-                                              : fmt::format("{} needs --integrator {}", name, first));
-        }
-    }
-    if (options.samples && frame.trace.view != plain.frame.trace.view)
-    {
-        throw Error(ErrorCode::Usage, fmt::format("--spp does not go with --view {}, which has no light",
-                                                  nameOf(kViews, frame.trace.view)));
-    }
-    const bool has_map = environment.map && *environment.map != "none";
-    if (environment.turn != plain.environment.turn && !has_map)
-    {
-        throw Error(ErrorCode::Usage, "--environment-turn needs a map: --environment FILE");
-    }
-    if (environment.strength != plain.environment.strength && !has_map)
-    {
-        throw Error(ErrorCode::Usage, "--environment-strength needs a map: --environment FILE");
-    }
-    if (frame.path.focus_distance != plain.frame.path.focus_distance &&
-        frame.path.lens_radius == plain.frame.path.lens_radius)
-    {
-        throw Error(ErrorCode::Usage, "--focus needs --aperture: all is sharp without a lens");
-    }
-    if (options.aovs && extensionOf(options.output.path) != ".exr")
-    {
-        throw Error(ErrorCode::Usage,
-                    fmt::format("--aov needs an output that ends in .exr, not {}", options.output.path));
-    }
-}
-
 int runCommandLine(int argc, const char* const* argv)
 {
+    setQuiet(false);
     return runProgram(
         [&]
         {

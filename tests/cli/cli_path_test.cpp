@@ -140,6 +140,19 @@ TEST_F(CliPath, TheReportTellsHowPathsWereTraced)
     EXPECT_EQ(sequence["pictures"][1]["samples"], 2);
 }
 
+// The camera is 3 away from the face in front of it, and the grid's voxels are a 13th of the cube.
+TEST_F(CliPath, WhatIsInTheMiddleIsInFocus)
+{
+    const std::string lens = kPath + "--spp 2 --json - --aperture 0.3 -o ";
+    const json focus = printedBy(lens + "auto.png")["paths"]["focus"];
+    EXPECT_NEAR(focus.get<double>(), 3.0, 1.0 / 13);
+    EXPECT_EQ(printedBy(lens + "given.png --focus " + focus.dump())["paths"]["focus"], focus);
+    EXPECT_EQ(file("auto.png"), file("given.png"));
+    EXPECT_EQ(printedBy(lens + "far.png --focus 9")["paths"]["focus"], 9.0);
+    EXPECT_NE(file("far.png"), file("auto.png"));
+    EXPECT_TRUE(contains(run(lens + "sky.png --camera 0,0,4,0,9,0").err, "nothing is at the picture's middle"));
+}
+
 // Of a cube in even light, denoising keeps what the camera sees of the light, and makes the rest smoother.
 TEST_F(CliPath, DenoisedPicturesAreSmoother)
 {
@@ -264,7 +277,7 @@ TEST_F(CliPath, ErrorsNameTheOption)
     expectError(path + "--exposure inf", 2, {"a finite number"});
     expectError(path + "--environment no.exr", 3, {"no.exr"});
     expectError(path + "--environment cube.glb", 3, {"cube.glb"});
-    expectError(kPath + "-o x.jpg", 2, {".exr"});
+    expectError(kPath + "-o x.bmp", 2, {".exr"});
     expectError(kPath + "-o sky.exr --environment sky.exr", 2, {"sky.exr"});
 }
 

@@ -251,6 +251,16 @@ TEST_F(CliSceneFile, FramesOfWhatStandsStillTurnTheCamera)
     EXPECT_TRUE(contains(told, "warning: nothing moves in this scene")) << told;
 }
 
+TEST_F(CliSceneFile, WhatMovesStandsStillOnATurntable)
+{
+    const std::string render = "render --size 64x48 --view albedo " + kScene + "--time 0.75 ";
+    run(render + "-o t_#.png --turntable 2");
+    run(render + "-o still.png");
+    EXPECT_EQ(file("t_0.png"), file("still.png"));
+    EXPECT_NE(file("t_1.png"), file("still.png"));
+    EXPECT_FALSE(std::filesystem::exists(m_dir.path() / "t_2.png"));
+}
+
 TEST_F(CliSceneFile, AnimationsOfAFileRunWhereTimesAreAskedFor)
 {
     GltfBuilder builder = coloredCube();

@@ -41,6 +41,25 @@ TEST_F(CliRun, HelpAndVersionAreData)
     }
 }
 
+TEST_F(CliRun, HelpIsAWordToo)
+{
+    EXPECT_EQ(run("help").out, run("--help").out);
+    EXPECT_EQ(run("help convert").out, run("convert --help").out);
+    EXPECT_NE(run("help render").out, run("help convert").out);
+}
+
+TEST_F(CliRun, QuietRunsTellOnlyOfWhatIsWrong)
+{
+    EXPECT_TRUE(contains(run("render cube.glb -o 1.png --resolution 8 --size 16x16").err, "voxels of 8^3"));
+    EXPECT_EQ(run("render cube.glb -o 2.png --resolution 8 --size 16x16 --quiet").err, "");
+    EXPECT_EQ(file("2.png"), file("1.png"));
+    EXPECT_EQ(run("build cube.glb -o cube.zvo --resolution 8 -q").err, "");
+    EXPECT_EQ(run("convert cube.zvo -o cube.ply -q").err, "");
+    const std::string path = "render cube.zvo --size 16x16 --integrator path --spp 1 -o ";
+    EXPECT_TRUE(contains(run(path + "3.png -q --environment none").err, "warning: nothing gives off light"));
+    EXPECT_TRUE(contains(run(path + "4.png").err, "1 path a pixel"));
+}
+
 TEST_F(CliRun, MortonFileHoldsTheLibrarysCodes)
 {
     run("voxelize cube.glb -o cube.morton --resolution 32");
