@@ -40,10 +40,10 @@ void setAxes(ViewCamera& camera, const glm::dvec3& direction)
 class Frame
 {
 public:
-    explicit Frame(double aspect)
+    explicit Frame(double aspect, const glm::dvec3& direction = kFramingDirection)
     {
         m_camera.vertical_fov = kFramingFov;
-        setAxes(m_camera, kFramingDirection);
+        setAxes(m_camera, direction);
         const double tangent = kFramingFill * std::tan(0.5 * kFramingFov);
         m_tangent = {tangent * aspect, tangent};
     }
@@ -143,7 +143,12 @@ ViewCamera ViewCamera::framing(const Scene& scene, double aspect)
 
 ViewCamera ViewCamera::framing(const Bounds& bounds, double aspect)
 {
-    Frame frame(aspect);
+    return framing(bounds, aspect, kFramingDirection);
+}
+
+ViewCamera ViewCamera::framing(const Bounds& bounds, double aspect, const glm::dvec3& direction)
+{
+    Frame frame(aspect, direction);
     for (int corner = 0; corner < 8; ++corner)
     {
         frame.include({(corner & 1) != 0 ? bounds.max.x : bounds.min.x, (corner & 2) != 0 ? bounds.max.y : bounds.min.y,

@@ -38,6 +38,9 @@ struct ViewCamera
     /// The same for the corners of a box.
     static ViewCamera framing(const Bounds& bounds, double aspect);
 
+    /// The same along any direction but 0.
+    static ViewCamera framing(const Bounds& bounds, double aspect, const glm::dvec3& direction);
+
     /// This camera turned about the vertical axis through centre, counterclockwise as seen from above.
     [[nodiscard]] ViewCamera turnedAround(const glm::dvec3& center, double radians) const;
 };

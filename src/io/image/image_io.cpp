@@ -269,6 +269,22 @@ std::vector<std::uint8_t> encodePng(std::uint32_t width, std::uint32_t height, s
     return png;
 }
 
+std::vector<std::uint8_t> encodeJpeg(std::uint32_t width, std::uint32_t height, std::span<const std::uint8_t> rgba,
+                                     std::uint32_t quality)
+{
+    assert(width > 0 && height > 0 && std::max(width, height) <= kImageEdgeMax && quality > 0 && quality <= 100);
+    assert(rgba.size() == std::size_t{width} * height * kChannels);
+    std::vector<std::uint8_t> jpeg;
+    if (stbi_write_jpg_to_func(appendBytes, &jpeg, static_cast<int>(width), static_cast<int>(height), kChannels,
+                               rgba.data(), static_cast<int>(quality)) == 0)
+    {
+        throw Error(ErrorCode::Memory, fmt::format("cannot encode a picture of {} x {} pixels as JPEG: not enough "
+                                                   "memory; make it smaller",
+                                                   width, height));
+    }
+    return jpeg;
+}
+
 std::vector<std::uint8_t> encodeHdr(const HdrImage& image)
 {
     constexpr int kRgb = 3;

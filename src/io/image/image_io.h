@@ -48,6 +48,11 @@ Image deferImage(std::span<const std::uint8_t> encoded, EncodedImage source, con
 /// A PNG file of width * height pixels from rgba, 4 bytes each, rows from the top. Equal pictures give equal bytes.
 std::vector<std::uint8_t> encodePng(std::uint32_t width, std::uint32_t height, std::span<const std::uint8_t> rgba);
 
+/// A JPEG file of such a picture; alpha is left out. quality: 1 to 100. Equal pictures give equal bytes. Throws
+/// Error{Memory}.
+std::vector<std::uint8_t> encodeJpeg(std::uint32_t width, std::uint32_t height, std::span<const std::uint8_t> rgba,
+                                     std::uint32_t quality);
+
 /// A Radiance picture (.hdr): 8 bits of mantissa with a common exponent. Throws Error{Memory}.
 std::vector<std::uint8_t> encodeHdr(const HdrImage& image);
 

@@ -3,10 +3,13 @@
 
 #include "io/gltf/gltf_builder.h"
 #include "io/gltf/gltf_uri.h"
+#include "io/image/webp_write.h"
 #include "zvo/error.h"
 
 #include <algorithm>
 #include <gtest/gtest.h>
+#include <memory>
+#include <webp/demux.h>
 #include <webp/encode.h>
 
 namespace zvo
@@ -44,9 +47,74 @@ TEST(ImageIo, PngKeepsEveryByte)
     }
 }
 
+TEST(ImageIo, WebpWithoutLossKeepsAllButAlpha)
+{
+    for (const auto& [width, height] : {std::pair(1U, 1U), std::pair(27U, 1U), std::pair(64U, 49U)})
+    {
+        Image image = checkerboard(width, height);
+        const Image decoded = decodeImage(encodeWebp(width, height, image.rgba, kWebpLossless), "name", "here");
+        for (std::size_t i = 3; i < image.rgba.size(); i += 4)
+        {
+            image.rgba[i] = 255;
+        }
+        EXPECT_EQ(decoded.width, width);
+        EXPECT_EQ(decoded.rgba, image.rgba);
+    }
+}
+
+TEST(ImageIo, LossyPicturesAreNear)
+{
+    Image image{.name = "slope", .width = 64, .height = 48, .rgba = {}};
+    for (std::uint32_t i = 0; i < image.width * image.height; ++i)
+    {
+        const auto x = static_cast<std::uint8_t>(4 * (i % 64));
+        const auto y = static_cast<std::uint8_t>(5 * (i / 64));
+        image.rgba.insert(image.rgba.end(), {x, y, 90, 255});
+    }
+    for (const auto& encoded : {encodeJpeg(64, 48, image.rgba, 90), encodeWebp(64, 48, image.rgba, 90)})
+    {
+        const Image decoded = decodeImage(encoded, "name", "here");
+        ASSERT_EQ(decoded.rgba.size(), image.rgba.size());
+        for (std::size_t i = 0; i < image.rgba.size(); ++i)
+        {
+            ASSERT_NEAR(decoded.rgba[i], image.rgba[i], 12) << i;
+        }
+    }
+}
+
+TEST(ImageIo, AnimationsPlayTheirPicturesInTheirTime)
+{
+    WebpAnimation animation(16, 8, kWebpLossless);
+    for (std::uint32_t i = 0; i < 3; ++i)
+    {
+        animation.add(std::vector(16 * 8 * 4, static_cast<std::uint8_t>(50 * i)), i * 40);
+    }
+    const std::vector<std::uint8_t> file = animation.finish(200);
+    const WebPData data = {file.data(), file.size()};
+    const std::unique_ptr<WebPAnimDecoder, decltype(&WebPAnimDecoderDelete)> decoder(WebPAnimDecoderNew(&data, nullptr),
+                                                                                     WebPAnimDecoderDelete);
+    ASSERT_TRUE(decoder);
+    WebPAnimInfo info;
+    WebPAnimDecoderGetInfo(decoder.get(), &info);
+    EXPECT_EQ(info.frame_count, 3U);
+    EXPECT_EQ(info.loop_count, 0U) << "for ever";
+    constexpr int kEnds[] = {40, 80, 200};
+    for (int i = 0; i < 3; ++i)
+    {
+        std::uint8_t* rgba = nullptr;
+        int end = 0;
+        ASSERT_TRUE(WebPAnimDecoderGetNext(decoder.get(), &rgba, &end));
+        EXPECT_EQ(end, kEnds[i]);
+        EXPECT_EQ(rgba[0], 50 * i);
+        EXPECT_EQ(rgba[3], 255);
+    }
+}
+
 TEST(ImageIo, EqualPicturesGiveEqualFiles)
 {
     const Image image = checkerboard(50, 40);
+    EXPECT_EQ(encodeJpeg(50, 40, image.rgba, 90), encodeJpeg(50, 40, image.rgba, 90));
+    EXPECT_EQ(encodeWebp(50, 40, image.rgba, 90), encodeWebp(50, 40, image.rgba, 90));
     EXPECT_EQ(encodePng(50, 40, image.rgba), encodePng(50, 40, image.rgba));
 }
 

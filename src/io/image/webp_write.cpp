@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: MIT
+#include "io/image/webp_write.h"
+
+#include "zvo/error.h"
+
+#include <cassert>
+#include <fmt/format.h>
+#include <webp/encode.h>
+#include <webp/mux.h>
+
+namespace zvo
+{
+
+namespace
+{
+
+constexpr int kWebpChannels = 4;
+
+[[noreturn]] void fail(std::uint32_t width, std::uint32_t height)
+{
+    throw Error(ErrorCode::Memory, fmt::format("cannot encode a picture of {} x {} pixels as WebP: not enough memory; "
+                                               "make it smaller",
+                                               width, height));
+}
+
+WebPConfig configOf(std::uint32_t quality)
+{
+    assert(quality > 0 && quality <= kWebpLossless);
+    WebPConfig config;
+    WebPConfigInit(&config); // fails only where the library is another one than its header
+    config.quality = static_cast<float>(quality);
+    config.lossless = quality == kWebpLossless ? 1 : 0;
+    return config;
+}
+
+// A picture in the form that libwebp takes.
+class Source
+{
+public:
+    Source(std::uint32_t width, std::uint32_t height, std::span<const std::uint8_t> rgba)
+    {
+        assert(width > 0 && height > 0 && width <= kWebpEdgeMax && height <= kWebpEdgeMax);
+        assert(rgba.size() == std::size_t{width} * height * kWebpChannels);
+        WebPPictureInit(&m_picture);
+        m_picture.use_argb = 1;
+        m_picture.width = static_cast<int>(width);
+        m_picture.height = static_cast<int>(height);
+        if (WebPPictureImportRGBX(&m_picture, rgba.data(), m_picture.width * kWebpChannels) == 0)
+        {
+            fail(width, height);
+        }
+    }
+    ~Source() { WebPPictureFree(&m_picture); }
+    Source(const Source&) = delete;
+    Source& operator=(const Source&) = delete;
+
+    WebPPicture* operator->() { return &m_picture; }
+    WebPPicture* get() { return &m_picture; }
+
+private:
+    WebPPicture m_picture;
+};
+
+int appendBytes(const std::uint8_t* data, std::size_t count, const WebPPicture* picture)
+{
+    auto& bytes = *static_cast<std::vector<std::uint8_t>*>(picture->custom_ptr);
+    bytes.insert(bytes.end(), data, data + count);
+    return 1;
+}
+
+} // namespace
+
+std::vector<std::uint8_t> encodeWebp(std::uint32_t width, std::uint32_t height, std::span<const std::uint8_t> rgba,
+                                     std::uint32_t quality)
+{
+    std::vector<std::uint8_t> webp;
+    Source source(width, height, rgba);
+    source->writer = appendBytes;
+    source->custom_ptr = &webp;
+    const WebPConfig config = configOf(quality);
+    if (WebPEncode(&config, source.get()) == 0)
+    {
+        fail(width, height);
+    }
+    return webp;
+}
+
+struct WebpAnimation::Encoder
+{
+    std::uint32_t width;
+    std::uint32_t height;
+    WebPConfig config;
+    std::unique_ptr<WebPAnimEncoder, decltype(&WebPAnimEncoderDelete)> made{nullptr, WebPAnimEncoderDelete};
+};
+
+WebpAnimation::WebpAnimation(std::uint32_t width, std::uint32_t height, std::uint32_t quality)
+    : m_encoder(std::make_unique<Encoder>(width, height, configOf(quality)))
+{
+    WebPAnimEncoderOptions options;
+    WebPAnimEncoderOptionsInit(&options); // plays for ever
+    m_encoder->made.reset(WebPAnimEncoderNew(static_cast<int>(width), static_cast<int>(height), &options));
+    if (!m_encoder->made)
+    {
+        fail(width, height);
+    }
+}
+
+WebpAnimation::~WebpAnimation() = default;
+WebpAnimation::WebpAnimation(WebpAnimation&&) noexcept = default;
+WebpAnimation& WebpAnimation::operator=(WebpAnimation&&) noexcept = default;
+
+void WebpAnimation::add(std::span<const std::uint8_t> rgba, std::uint32_t begin_ms)
+{
+    Source source(m_encoder->width, m_encoder->height, rgba);
+    if (WebPAnimEncoderAdd(m_encoder->made.get(), source.get(), static_cast<int>(begin_ms), &m_encoder->config) == 0)
+    {
+        fail(m_encoder->width, m_encoder->height);
+    }
+}
+
+std::vector<std::uint8_t> WebpAnimation::finish(std::uint32_t end_ms)
+{
+    WebPData data;
+    WebPDataInit(&data);
+    const bool made = WebPAnimEncoderAdd(m_encoder->made.get(), nullptr, static_cast<int>(end_ms), nullptr) != 0 &&
+                      WebPAnimEncoderAssemble(m_encoder->made.get(), &data) != 0;
+    const std::unique_ptr<WebPData, decltype(&WebPDataClear)> owner(&data, WebPDataClear);
+    if (!made)
+    {
+        fail(m_encoder->width, m_encoder->height);
+    }
+    return {data.bytes, data.bytes + data.size};
+}
+
+} // namespace zvo
