@@ -94,7 +94,7 @@ struct WebpAnimation::Encoder
 };
 
 WebpAnimation::WebpAnimation(std::uint32_t width, std::uint32_t height, std::uint32_t quality)
-    : m_encoder(std::make_unique<Encoder>(width, height, configOf(quality)))
+    : m_encoder(new Encoder{width, height, configOf(quality)})
 {
     WebPAnimEncoderOptions options;
     WebPAnimEncoderOptionsInit(&options); // plays for ever
