@@ -25,8 +25,8 @@ double luminanceOf(const glm::dvec3& color)
     return glm::dot(color, glm::dvec3(0.2126, 0.7152, 0.0722));
 }
 
-// Makes the mean brightness, in stops, 0.2. Exposure and curve are the measure's own, so that its results can be compared
-// with earlier ones, however pictures are developed.
+// Makes the mean brightness, in stops, 0.2. Exposure and curve are the measure's own, so that its results can be
+// compared with earlier ones, however pictures are developed.
 double exposureFor(const HdrImage& picture)
 {
     std::vector<double> stops; // of pixels with light
