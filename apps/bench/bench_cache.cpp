@@ -174,7 +174,8 @@ public:
     /// the same frames.
     std::vector<CacheRow> cached(const HdrImage& reference, std::span<const std::uint32_t> counts, const CacheRow& path)
     {
-        const FrameOptions options = {.integrator = Integrator::Cache, .radiance = m_cache_options};
+        const FrameOptions options = {
+            .integrator = Integrator::Cache, .radiance = m_cache_options, .shading = Shading::Faces}; // as paths
         FrameRenderer tracer(m_device.device());
         tracer.resize(m_width, m_height);
         RadianceView cones(m_device.device(), m_width, m_height);

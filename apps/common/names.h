@@ -38,6 +38,8 @@ inline constexpr auto kIntegrators = std::to_array<Named<Integrator>>({{"primary
                                                                        {"path", Integrator::Path},
                                                                        {"cache", Integrator::Cache, "cached"},
                                                                        {"cones", Integrator::Cones}});
+inline constexpr auto kShadings =
+    std::to_array<Named<Shading>>({{"smooth", Shading::Smooth}, {"faces", Shading::Faces}});
 inline constexpr const char* kIntegratorHelp =
     "light by a ray to the sun and a simple sky, by path tracing, from the radiance cache, or through cones that read "
     "that, to compare with (default primary)";

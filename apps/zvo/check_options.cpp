@@ -74,6 +74,7 @@ void checkIntegratorOptions(const RenderOptions& options)
     using Integrators = std::initializer_list<Integrator>;
     const Integrators of_paths = {Integrator::Path};
     const Integrators of_cache = {Integrator::Cache, Integrator::Cones};
+    const Integrators of_faces = {Integrator::Cache};
     const Integrators of_light = {Integrator::Path, Integrator::Cache, Integrator::Cones};
     const Integrators of_primary = {Integrator::Primary};
     const RenderOptions plain;
@@ -84,6 +85,7 @@ void checkIntegratorOptions(const RenderOptions& options)
         {"--seed", frame.path.seed != plain.frame.path.seed, of_light},
         {"--settle", options.settle != plain.settle, of_cache},
         {"--rays", frame.radiance != plain.frame.radiance, of_cache},
+        {"--shading", frame.shading != plain.frame.shading, of_faces},
         {"--aperture", frame.path.lens_radius != plain.frame.path.lens_radius, of_paths},
         {"--focus", options.focus.has_value(), of_paths},
         {"--environment", environment.map.has_value(), of_light},

@@ -84,14 +84,18 @@ vec3 faceNormal(uint face, vec3 direction)
     return face == kFaceInside ? -normalize(direction) : mix(axis, -axis, greaterThan(direction, vec3(0.0)));
 }
 
-// Normal of an attribute, turned round if the surface is seen from behind; face_normal if it has none. At the rim of a
-// surface its normal may point away from the viewer a little without that.
+// From this cosine between a normal and the viewer's direction on, a surface is seen from behind. At the rim of a
+// surface its normal may point away from the viewer without that, the more so the coarser the surface's triangles are.
+const float kSeenFromBehind = 0.5;
+
+// Normal of an attribute, turned round if the surface is seen from behind; face_normal if it has none. All faces of a
+// voxel have the same one, so neighbouring pixels do.
 vec3 shadingNormal(uint code, vec3 face_normal, vec3 direction)
 {
     if (code == kNoNormal)
         return face_normal;
     vec3 normal = normalize(vec3(decodeNormal(code)));
-    return dot(normal, face_normal) < 0.0 && dot(normal, direction) > 0.0 ? -normal : normal;
+    return dot(normal, direction) > kSeenFromBehind * length(direction) ? -normal : normal;
 }
 
 #endif

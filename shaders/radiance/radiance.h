@@ -342,7 +342,8 @@ struct RadianceViewParams // push constants of radiance/view: a thread a pixel, 
     CONSTANT(2, AttributeFormat, format, kFormat, kFormat8) /* of attributes */                                        \
     CONSTANT(3, bool, emission, kEmission, false)           /* there are emissive voxels */                            \
     CONSTANT(4, bool, reflects, kReflects, true)            /* false: pixels are only listed */                        \
-    CONSTANT(5, bool, adds, kAdds, true)                    /* false: sets the sums */
+    CONSTANT(5, bool, adds, kAdds, true)                    /* false: sets the sums */                                 \
+    CONSTANT(6, bool, smooth_normals, kSmooth, false)       /* shows light by the voxel's normal */
 GPU_KERNEL(radiance, view, View, RadianceViewParams, RADIANCE_VIEW_CONSTANTS)
 
 struct RadianceConesParams // push constants of radiance/cones: a thread a pixel, in the order of path/path.h

@@ -1,7 +1,7 @@
 #version 460
 // SPDX-License-Identifier: MIT
-// Adds the light that the camera sees reflected to each pixel: what is cached at its hit, between four faces. Pixels
-// that see a lamp, or nothing, are listed.
+// Adds the light that the camera sees reflected to each pixel: what is cached at its hit, between four faces, or with
+// kSmooth on up to three sides of the voxel. Pixels that see a lamp, or nothing, are listed.
 #extension GL_GOOGLE_include_directive : require
 #include "radiance/radiance.h"
 
@@ -22,6 +22,42 @@ layout(local_size_x = kRadianceGroup) in;
 #include "radiance/face_table.glsl"
 #include "radiance/hits.glsl"
 #include "trace/surface.glsl"
+
+// A weight of the face that is hit which stays where the voxel's normal points along other axes: that face has light.
+const float kHitFaceWeight = 0.001;
+
+// The light at a place of a voxel by its normal: a mean of its faces that the normal points to, weighted by the squares
+// of the normal's components, so that a slope of steps looks like a plane. As a mean of what is cached it makes no
+// light. The face that weighs most is mixed with its neighbours. w: 0 where none has light.
+vec4 lightByNormal(uvec3 cell, uint hit_normal, vec3 place, vec3 normal)
+{
+    vec3 weights = normal * normal;
+    uint hit_axis = hit_normal % 3u;
+    weights += kHitFaceWeight * abs(normalAxis(hit_normal));
+    uint main_axis = weights.x >= max(weights.y, weights.z) ? 0u : weights.y >= weights.z ? 1u : 2u;
+    vec4 sum = vec4(0.0);
+    [[unroll]] for (uint k = 0u; k < 3u; ++k)
+    {
+        uint axis = (main_axis + k) % 3u;
+        float along = axis == 0u ? normal.x : axis == 1u ? normal.y : normal.z;
+        float weight = axis == 0u ? weights.x : axis == 1u ? weights.y : weights.z;
+        uint side = axis == hit_axis ? hit_normal : axis + (along < 0.0 ? 3u : 0u);
+        vec4 light;
+        if (k == 0u)
+        {
+            light = lightBetweenFaces(cell, side, place, 0u);
+            light /= max(light.w, 1e-6);
+        }
+        else
+        {
+            CachedFace face;
+            bool found = findFace(cell, side, 0u, face) != kNoFace && cachedWeight(face.light) != 0u;
+            light = found ? vec4(cachedRadiance(face.light), 1.0) : vec4(0.0);
+        }
+        sum += weight * light;
+    }
+    return sum;
+}
 
 void main()
 {
@@ -49,7 +85,11 @@ void main()
     vec3 direction = params.camera.forward + (kOrthographic ? vec3(0.0) : offset);
     vec3 point = (origin + hit.t * direction - 1.0) * exp2(2.0 * float(kNodeLevels)) - vec3(hitCell(hit));
     uint normal = normalOfHit(hitFace(hit), direction);
-    vec4 sum = lightBetweenFaces(hitCell(hit), normal, point, 0u);
+    vec4 sum;
+    if (kSmooth)
+        sum = lightByNormal(hitCell(hit), normal, point, shadingNormal(stored.normal, normalAxis(normal), direction));
+    else
+        sum = lightBetweenFaces(hitCell(hit), normal, point, 0u);
     vec3 light = sum.rgb / max(sum.w, 1e-6) + lightOfBrick(hitCell(hit), normal, sum.w == 0.0).rgb;
     vec3 reflected = reflects ? albedoOf(stored) * light : vec3(0.0);
     if (kAdds)

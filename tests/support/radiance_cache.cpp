@@ -48,6 +48,7 @@ FrameOptions cachedOptions(const RadianceOptions& radiance, CacheView kind)
     FrameOptions options;
     options.integrator = kind == CacheView::Cones ? Integrator::Cones : Integrator::Cache;
     options.radiance = radiance;
+    options.shading = kind == CacheView::Smooth ? Shading::Smooth : Shading::Faces;
     return options;
 }
 

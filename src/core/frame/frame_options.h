@@ -26,6 +26,13 @@ constexpr bool usesCache(Integrator integrator)
     return integrator == Integrator::Cache || integrator == Integrator::Cones;
 }
 
+/// How the light of a picture is shown.
+enum class Shading : std::uint8_t
+{
+    Smooth, ///< by the normals of voxels
+    Faces,  ///< by the faces of voxels
+};
+
 /// Options of a picture. Those of other integrators than its own have no effect.
 struct FrameOptions
 {
@@ -36,6 +43,7 @@ struct FrameOptions
     bool denoise = false;                             // Integrator::Path: filters the noise of few samples (Denoiser)
     std::uint32_t history_max = 16;                   // as in Denoiser::denoise()
     RadianceOptions radiance = {};                    // Integrator::Cache and Cones
+    Shading shading = Shading::Smooth;                // Integrator::Cache
     bool antialias = false; // Integrator::Primary: pictures are means of samples, each through another point of pixels
     Exposure exposure = {}; // Integrator::Primary: the factor alone
 

@@ -17,6 +17,13 @@ PathOptions pathOptions(const FrameOptions& options)
     return path;
 }
 
+CacheView viewOf(const FrameOptions& options)
+{
+    return options.integrator == Integrator::Cones ? CacheView::Cones
+           : options.shading == Shading::Faces     ? CacheView::Faces
+                                                   : CacheView::Smooth;
+}
+
 bool denoises(const FrameOptions& options)
 {
     return options.denoise && options.shownIntegrator() == Integrator::Path;
@@ -74,8 +81,7 @@ void FrameRenderer::addSample(vk::FrameGraph& graph, const FrameSubject& subject
             m_tracer.tracePrimary(graph, subject.tree, camera, {});
         }
         view.add(graph, subject.cache == nullptr ? cache() : *subject.cache, subject.tree, *subject.environment, camera,
-                 buffers(), integrator == Integrator::Cones ? CacheView::Cones : CacheView::Faces,
-                 options.radiance.seed);
+                 buffers(), viewOf(options), options.radiance.seed);
         break;
     }
     }

@@ -53,12 +53,14 @@ void RadianceView::add(vk::FrameGraph& graph, const DeviceRadianceCache& cache, 
 void RadianceView::addCached(vk::FrameGraph& graph, const Work& work)
 {
     const bool emits = hasEmission(work.tree);
-    vk::Pass pass = graph.addPass(gpu::radiance::View{.node_levels = work.tree.grid.nodeLevels(),
-                                                      .orthographic = work.camera.orthographic,
-                                                      .format = work.tree.attributeFormat(),
-                                                      .emission = emits,
-                                                      .reflects = work.kind == CacheView::Faces,
-                                                      .adds = !work.begins});
+    vk::Pass pass = graph.addPass(gpu::radiance::View{
+        .node_levels = work.tree.grid.nodeLevels(),
+        .orthographic = work.camera.orthographic,
+        .format = work.tree.attributeFormat(),
+        .emission = emits,
+        .reflects = work.kind != CacheView::Cones,
+        .adds = !work.begins,
+        .smooth_normals = work.kind == CacheView::Smooth && work.tree.attributeFormat() != AttributeFormat::None});
     pass.dispatch(m_sums.count(), {.faces = pass.read(work.cache.faces()),
                                    .hits = pass.read(work.seen.hits),
                                    .starts = pass.read(work.seen.starts),

@@ -12,8 +12,9 @@ namespace zvo
 /// How a picture shows the radiance cache.
 enum class CacheView : std::uint8_t
 {
-    Faces, ///< that of the faces that are seen
-    Cones, ///< what comes to them through six cones (C. Crassin et al., 2011), to compare with
+    Faces,  ///< that of the faces that are seen
+    Smooth, ///< that of the voxels that are seen, by their normals: slopes of steps look like planes
+    Cones,  ///< what comes to them through six cones (C. Crassin et al., 2011), to compare with
 };
 
 /// A picture by the radiance cache. Owns its buffers.
@@ -32,7 +33,7 @@ public:
     /// each, which follow their rays in one dispatch, however long.
     void add(vk::FrameGraph& graph, const DeviceRadianceCache& cache, const DeviceTree& tree,
              const DeviceEnvironment& environment, const TraceCamera& camera, const TraceBuffers& seen,
-             CacheView kind = CacheView::Faces, std::uint32_t seed = 0);
+             CacheView kind = CacheView::Smooth, std::uint32_t seed = 0);
 
     /// Frames so far.
     [[nodiscard]] std::uint32_t frameCount() const { return m_frame_count; }

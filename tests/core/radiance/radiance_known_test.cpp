@@ -56,6 +56,31 @@ TEST(RadianceFurnace, AWhiteCubeCannotBeSeen)
     }
 }
 
+// Light by normals is a mean of that of faces, so bodies look like the sky by it, too, wherever their normals point.
+TEST(RadianceFurnace, AWhiteBodyCannotBeSeenByItsNormals)
+{
+    std::vector<LitVoxel> voxels;
+    test::addBox(voxels, {2, 2, 2}, {6, 3, 6}, whiteVoxel());
+    test::addBox(voxels, {2, 3, 2}, {4, 4, 6}, whiteVoxel());
+    DeviceTree tree = test::litTree(device(), voxels, 3);
+    // Octahedral codes of +z, of the diagonal (1, 1, 1), of one that leans away, and none.
+    const gpu::uint normals[] = {0, 0x2AAA2AAAU, 0xD5560000U, gpu::kNoNormal};
+    std::vector<gpu::Attribute> attributes(voxels.size());
+    for (std::size_t i = 0; i < voxels.size(); ++i)
+    {
+        attributes[i] = {0xFFFFFFU, normals[i % 4]};
+    }
+    tree.voxel_attributes = device().makeBuffer<gpu::Attribute>("attributes", attributes);
+    DeviceEnvironment sky = constantSky({0.5F, 1.0F, 2.0F});
+    FrameRenderer tracer(device().device());
+    const PathPicture picture = settledPicture(tracer, tree, sky, outside(), 64, 512, 8, {}, CacheView::Smooth);
+    EXPECT_NEAR(picture.luminance, test::luminanceOf({0.5, 1.0, 2.0}), 0.01);
+    for (const glm::dvec3& pixel : picture.pixels)
+    {
+        EXPECT_NEAR(pixel.g, 1.0, 0.05);
+    }
+}
+
 // It looks nearly like the sky through cones, too.
 TEST(RadianceFurnace, AWhiteCubeCanHardlyBeSeenThroughCones)
 {
