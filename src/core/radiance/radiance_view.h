@@ -13,8 +13,8 @@ namespace zvo
 enum class CacheView : std::uint8_t
 {
     Faces,  ///< that of the faces that are seen
-    Smooth, ///< that of the voxels that are seen, by their normals: slopes of steps look like planes
     Cones,  ///< what comes to them through six cones (C. Crassin et al., 2011), to compare with
+    Smooth, ///< that of the voxels that are seen, by their normals: slopes of steps look like planes
 };
 
 /// A picture by the radiance cache. Owns its buffers.
