@@ -115,6 +115,10 @@ public:
     /// The edits: which strokes can be undone, and how much memory they hold. Null if the scene cannot be edited.
     [[nodiscard]] const Edits* edits() const { return m_dynamic ? &m_dynamic->edits() : nullptr; }
 
+    /// Drops strokes that have changed nothing from the history, once that is known, and returns their number. Not
+    /// between beginFrame() and the end of the frame's submission.
+    std::size_t dropUnchangedStrokes() { return m_dynamic ? m_dynamic->dropUnchangedStrokes() : 0; }
+
     /// Moves a dynamic object by an offset in world space, in addition to its motion. The offset replaces the last one;
     /// 0 restores the object's own position.
     void setOffset(std::size_t object, const glm::dvec3& offset);

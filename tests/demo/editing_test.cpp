@@ -122,6 +122,26 @@ TEST_F(DemoEditing, AStrokeOfOneStepHasNoGaps)
     EXPECT_LT(count, 2500U) << "a line, not more";
 }
 
+// The cube fills its grid. In front of its face there is nothing to fill, and behind it with a radius of 1.
+TEST_F(DemoEditing, AStrokeThatChangesNothingIsNoEntry)
+{
+    Script script;
+    script.press(1, Key::F12).press(2, Key::B);
+    std::uint64_t frame = drag(script, 4, {{60, 50}, {80, 50}}); // carves
+    script.press(frame, Key::N);
+    for (std::uint64_t i = 0; i < 7; ++i)
+    {
+        script.press(frame + 2 + 2 * i, Key::LeftBracket);
+    }
+    frame = drag(script, frame + 18, {{140, 90}, {150, 90}});
+    script.press(frame, Key::LeftBracket);
+    frame = drag(script, frame + 2, {{140, 90}, {150, 90}});
+    script.press(frame + 4, Key::Z, kControl).press(frame + 6, Key::F12);
+    play(script, frame + 10, kCube + kFront);
+    const std::vector<std::string> shots = takeShots(2);
+    EXPECT_EQ(shots[1], shots[0]) << "undo takes back what was carved";
+}
+
 TEST_F(DemoEditing, TheColourIsThatUnderThePointerNow)
 {
     Script script;

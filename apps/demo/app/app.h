@@ -145,6 +145,7 @@ private:
     void finishOldest();
     FrameLooks takeLooks();
     void answer(const FrameLooks& looks);
+    void noteIdleStrokes();
     void keep(const FrameInFlight& frame);
     void finishAll();
     std::unique_ptr<Screenshot> takeScreenshot(PictureSize size);

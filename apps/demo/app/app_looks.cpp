@@ -75,6 +75,19 @@ void App::answer(const FrameLooks& looks)
         stroke.push_back(place ? reports[*place] : gpu::PixelReport{});
     }
     m_editor.found(looks.color ? &reports[*looks.color] : nullptr, stroke, *m_world);
+    noteIdleStrokes();
+}
+
+// Strokes that change nothing are no entries of the history; the user is told why.
+void App::noteIdleStrokes()
+{
+    const bool has_missed = m_editor.takeMissed();
+    if (m_world->scene.dropUnchangedStrokes() != 0 || has_missed)
+    {
+        note(m_editor.state.action == BrushAction::Fill
+                 ? "nothing to fill there: the grid ends, or there are voxels already"
+                 : "the stroke has changed nothing");
+    }
 }
 
 } // namespace zvo::demo

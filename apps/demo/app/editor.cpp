@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "demo/app/editor.h"
 
+#include "core/edit/edit.h"
 #include "demo/world/hit_face.h"
 
 #include <algorithm>
@@ -40,6 +41,7 @@ void Editor::handle(const InputEvent& event, const ViewCamera& camera, const glm
         {
             m_used = state;
             m_dabs.clear();
+            m_has_reached = false;
             m_has_grabbed = false;
         }
         m_stroke.press(m_pointer);
@@ -107,8 +109,10 @@ void Editor::paint(std::span<const gpu::PixelReport> reports, World& world)
         {
             if (m_used.tool == Tool::Brush)
             {
+                const Brush brush = m_used.brushAt(dab);
                 m_dabs.push_back(dab);
-                world.scene.request(m_used.brushAt(dab));
+                m_has_reached = m_has_reached || DabExtent::of(brush, grid).has_value();
+                world.scene.request(brush);
             }
             else if (m_stroke.isDown())
             {
@@ -165,6 +169,7 @@ void Editor::finishStroke(World& world)
     if (m_used.tool == Tool::Brush)
     {
         world.scene.request(EndStroke{});
+        m_has_missed = !m_dabs.empty() && !m_has_reached;
     }
     for (const EditRequest& request : std::exchange(m_behind, {}))
     {

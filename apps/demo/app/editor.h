@@ -12,6 +12,7 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace zvo::demo
@@ -55,6 +56,9 @@ public:
     /// Queues an edit behind the stroke that is under way.
     void request(const EditRequest& request, World& world);
 
+    /// Whether a stroke has ended that was wholly outside of the grid; true once.
+    bool takeMissed() { return std::exchange(m_has_missed, false); }
+
     /// Whether a stroke is not finished yet.
     [[nodiscard]] bool isBusy() const { return m_used.tool == Tool::Brush && m_stroke.isActive(); }
 
@@ -78,8 +82,10 @@ private:
     void finishStroke(World& world);
 
     Stroke m_stroke;
-    ToolState m_used;                  // for the stroke that is under way, whatever is chosen since it began
-    std::vector<glm::ivec3> m_dabs;    // centres of the stroke
+    ToolState m_used;               // for the stroke that is under way, whatever is chosen since it began
+    std::vector<glm::ivec3> m_dabs; // centres of the stroke
+    bool m_has_reached = false;     // the grid, with a dab of the stroke
+    bool m_has_missed = false;
     bool m_has_grabbed = false;        // in the stroke, maybe nothing
     std::vector<EditRequest> m_behind; // the stroke
     std::optional<Drag> m_drag;

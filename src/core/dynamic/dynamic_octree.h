@@ -149,6 +149,9 @@ public:
     bool undoEdit(vk::FrameGraph& graph);
     bool redoEdit(vk::FrameGraph& graph);
 
+    /// Drops strokes that have changed nothing from the history (Edits::dropUnchanged()). What is shown stays the same.
+    std::size_t dropUnchangedStrokes() { return m_edits.dropUnchanged(); }
+
     /// The edited tree: which strokes can be undone, and how much memory they hold.
     [[nodiscard]] const Edits& edits() const { return m_edits; }
 

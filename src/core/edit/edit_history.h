@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <deque>
+#include <optional>
 #include <vector>
 
 namespace zvo
@@ -73,11 +74,16 @@ public:
     /// Drops the entries to redo.
     void dropRedo();
 
+    /// Drops the entries of finished strokes that are known to have changed nothing, and returns their number. The
+    /// slots of such an entry and of the one before it show the same, so it does not matter which of them is shown.
+    /// Strokes of which an earlier one was dropped, or that have moved, before they were known, are kept.
+    std::size_t dropUnchanged();
+
     /// For each slot, whether it belongs to an entry.
     [[nodiscard]] std::vector<bool> used() const;
 
     /// Sets the top of a slot to what the device has reported.
-    void learn(std::uint32_t slot, const EditTop& top) { m_tops[slot] = top; }
+    void learn(std::uint32_t slot, const EditTop& top);
 
     /// Whether all entries' tops are exact.
     [[nodiscard]] bool isExact() const;
@@ -86,14 +92,24 @@ public:
     void forgetTops();
 
 private:
+    // How the dab of a slot was pushed.
+    struct Dab
+    {
+        std::uint32_t from = 0; // slots
+        std::uint32_t kept = 0;
+        bool begins_stroke = true;
+    };
+
     void freeSlots(std::size_t first, std::size_t end);
 
     std::size_t m_entries_max;
     std::deque<std::uint32_t> m_line{0}; // slots
     std::size_t m_current = 0;
     bool m_is_stroke = false;
-    std::deque<std::uint32_t> m_free; // in the order in which they were freed
-    std::vector<EditTop> m_tops;      // of slots
+    std::deque<std::uint32_t> m_free;       // in the order in which they were freed
+    std::vector<EditTop> m_tops;            // of slots
+    std::vector<std::optional<Dab>> m_dabs; // of slots; nothing: the device has reported, or the slot has moved
+    std::vector<bool> m_is_unchanged;       // of slots: known to show what was there before the stroke
 };
 
 } // namespace zvo

@@ -275,6 +275,13 @@ bool Edits::redo()
     return m_now.history.redo();
 }
 
+std::size_t Edits::dropUnchanged()
+{
+    // The dabs of a root that is a leaf take no nodes, whatever they change.
+    const bool can_tell = !m_before && m_overlays.tree().grid.nodeLevels() > 1;
+    return can_tell ? m_now.history.dropUnchanged() : 0;
+}
+
 void Edits::saveFrame()
 {
     if (!m_before)

@@ -43,6 +43,10 @@ public:
     bool undo();
     bool redo();
 
+    /// Drops the entries of finished strokes that have changed nothing, as far as the device has reported, and returns
+    /// their number. Not between beginFrame() and the end of the frame's submission.
+    std::size_t dropUnchanged();
+
     /// Number of the edited tree's root node: the static root where nothing has been edited.
     [[nodiscard]] std::uint32_t root() const;
 

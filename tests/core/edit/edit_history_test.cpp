@@ -129,6 +129,52 @@ TEST(EditHistory, DropsTheOlderHalf)
     EXPECT_FALSE(history.dropOldest());
 }
 
+TEST(EditHistory, DropsStrokesThatHaveChangedNothing)
+{
+    EditHistory history(10);
+    const std::uint64_t first = history.slotCount();
+    history.learn(0, {first, 0, 100, true});
+    const std::uint32_t carved = history.push(50, 64);
+    history.endStroke();
+    history.learn(carved, {first + 10, 64, 90, true});
+    EXPECT_EQ(history.dropUnchanged(), 0U);
+    const std::uint32_t idle = history.push(50, 64);
+    history.endStroke();
+    EXPECT_EQ(history.dropUnchanged(), 0U) << "nothing is known yet";
+    history.learn(idle, {first + 10, 96, 90, true}); // voxels' tops are rounded up
+    EXPECT_EQ(history.dropUnchanged(), 1U);
+    EXPECT_EQ(history.undoCount(), 1U);
+    EXPECT_EQ(history.slot(), carved);
+
+    const std::uint32_t begun = history.push(50, 64);
+    history.learn(begun, {first + 10, 96, 90, true});
+    EXPECT_EQ(history.dropUnchanged(), 0U) << "the stroke is under way";
+    const std::uint32_t painted = history.push(50, 64);
+    history.endStroke();
+    history.learn(painted, {first + 20, 128, 90, true});
+    EXPECT_EQ(history.dropUnchanged(), 0U) << "its last dab has changed something";
+    const std::uint32_t changes = history.push(50, 64);
+    history.learn(changes, {first + 30, 128, 90, true});
+    const std::uint32_t ends = history.push(50, 64);
+    history.endStroke();
+    history.learn(ends, {first + 30, 160, 90, true});
+    EXPECT_EQ(history.dropUnchanged(), 0U) << "its first dab has";
+
+    const std::uint32_t redone = history.push(50, 64);
+    history.learn(redone, {first + 30, 160, 90, true});
+    history.undo();
+    EXPECT_EQ(history.redoCount(), 1U);
+    EXPECT_EQ(history.dropUnchanged(), 1U);
+    EXPECT_EQ(history.redoCount(), 0U);
+    EXPECT_EQ(history.slot(), ends);
+
+    const std::uint32_t moved = history.push(50, 64);
+    history.endStroke();
+    history.forgetTops(); // what was there before the stroke stands elsewhere
+    history.learn(moved, {first + 30, 160, 90, true});
+    EXPECT_EQ(history.dropUnchanged(), 0U);
+}
+
 TEST(EditHistory, KnowsWhetherTheDeviceHasToldAllTops)
 {
     EditHistory history(8);
