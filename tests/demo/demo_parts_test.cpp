@@ -151,7 +151,9 @@ TEST(Settings, AreWrittenToAFolderThatIsMade)
 {
     const test::TempDir folder;
     const std::filesystem::path file = folder.path() / "a" / "b" / "demo.json";
-    EXPECT_EQ(readSettings(file), Settings{});
+    Settings first;
+    first.is_first = true;
+    EXPECT_EQ(readSettings(file), first);
     writeSettings(file, otherSettings());
     EXPECT_EQ(readSettings(file), otherSettings());
     writeSettings(file, Settings{});
