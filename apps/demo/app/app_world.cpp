@@ -232,35 +232,4 @@ void App::takeTold()
     }
 }
 
-void App::buildPanel()
-{
-    BuildAnswer answer = demo::buildPanel(m_world_options, *m_world, m_loading.get());
-    if (answer.cancels)
-    {
-        m_loads_next.reset();
-        m_loading->cancel();
-    }
-    if (answer.rebuild)
-    {
-        loseStrokes([this, options = *answer.rebuild] { beginLoading(options); });
-    }
-}
-
-void App::toolsPanel()
-{
-    const ToolsAnswer answer = demo::toolsPanel(m_editor.state, *m_world);
-    if (answer.undoes)
-    {
-        request(UndoStroke{});
-    }
-    if (answer.redoes)
-    {
-        request(RedoStroke{});
-    }
-    if (answer.saves)
-    {
-        whenFree([this] { save(); });
-    }
-}
-
 } // namespace zvo::demo
