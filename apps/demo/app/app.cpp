@@ -117,10 +117,9 @@ App::~App()
 
 void App::run()
 {
-    const cli::InterruptWatch watch(cli::Noticed::All); // what is kept from run to run is kept then, too
+    m_watch.emplace(cli::Noticed::All); // what is kept from run to run is kept then, too
     while (!m_quits)
     {
-        m_quits = watch.interrupted();
         continueLoading(); // draws frames, too
         if (!m_quits)
         {
@@ -179,6 +178,7 @@ void App::frame()
 void App::beginFrame(double rest_seconds)
 {
     takeInput(rest_seconds);
+    m_quits = m_quits || (m_watch && m_watch->interrupted());
     const Clock::time_point now = Clock::now();
     m_passed = now - m_frame_start;
     m_frame_start = now;
@@ -199,6 +199,10 @@ void App::takeInput(double rest_seconds)
     const PictureSize size = m_window.framebufferSize();
     const bool idles = !m_replay && (size.width == 0 || size.height == 0);
     const std::vector<InputEvent> users = m_window.takeEvents(idles ? kIdleSeconds : rest_seconds);
+    if (m_window.takeDamage())
+    {
+        noteRedraw();
+    }
     // While a script is played, only the user's request to close the window counts.
     for (const InputEvent& event : users)
     {
@@ -235,9 +239,16 @@ void App::apply(const InputEvent& event)
     const auto* const move = std::get_if<MouseMoveEvent>(&event);
     m_mouse = move != nullptr ? *move : m_mouse;
     m_refinement.noteInput(move != nullptr && m_editor.hasButton()); // a tool follows the pointer
-    const bool is_the_panels = m_ui.handle(event);                   // the panels see events even while they are hidden
-    const auto* const pressed = std::get_if<KeyEvent>(&event);
-    const bool is_the_dialogs = hasDialog() && (is_the_panels || (pressed != nullptr && pressed->pressed));
+    const auto* const key = std::get_if<KeyEvent>(&event);
+    const KeyBinding* const binding = key != nullptr ? bindingOf(*key) : nullptr;
+    const bool is_of_loading = std::holds_alternative<CloseEvent>(event) || std::holds_alternative<DropEvent>(event) ||
+                               (binding != nullptr && binding->action == Action::Quit);
+    if (m_is_first_world && !is_of_loading) // there is nothing else yet
+    {
+        return;
+    }
+    const bool is_the_panels = m_ui.handle(event); // the panels see events even while they are hidden
+    const bool is_the_dialogs = hasDialog() && (is_the_panels || (key != nullptr && key->pressed));
     if ((m_panels.shows_panels && is_the_panels) || is_the_dialogs)
     {
         return;
@@ -256,7 +267,7 @@ void App::apply(const InputEvent& event)
     const PictureSize size = m_window.size();
     m_camera.handle(event, m_editor.hasButton(), static_cast<double>(size.height));
     m_editor.handle(event, m_camera.camera(), {size.width, size.height}, *m_world);
-    if (const auto* const key = std::get_if<KeyEvent>(&event))
+    if (key != nullptr)
     {
         onKey(*key);
     }
@@ -271,9 +282,16 @@ void App::advanceTime()
     const bool is_first = m_frame == 0;
     takeTold();
     showTitle();
+    if (!m_notices.all().empty() || m_loading != nullptr)
+    {
+        m_redraws = std::max(m_redraws, 1);
+    }
     m_notices.advance(m_frame_seconds);
     m_camera.advance(m_frame_seconds);
-    m_flight.advance(m_frame_seconds, is_first, m_camera);
+    if (!m_is_first_world)
+    {
+        m_flight.advance(m_frame_seconds, is_first, m_camera);
+    }
     if (!is_first)
     {
         m_timeline.advance(m_frame_seconds);

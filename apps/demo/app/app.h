@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "common/signals.h"
 #include "demo/app/editor.h"
 #include "demo/app/options.h"
 #include "demo/app/saved_mark.h"
@@ -128,6 +129,8 @@ private:
 
     void drawStill();
     bool beginStill();
+    void takeDevelopment();
+    FrameInFlight tracingFrame();
     void addSample();
     void develop();
     void inspectStill();
@@ -135,6 +138,7 @@ private:
     void abandonIfChanged();
     void whenFree(std::function<void()> action);
     void noteRedraw();
+    [[nodiscard]] PictureSize fullSize() const;
     [[nodiscard]] PictureState pictureState() const;
     [[nodiscard]] bool moves() const;
     [[nodiscard]] bool hasSun() const;
@@ -167,6 +171,7 @@ private:
     void loadEnvironment(const std::filesystem::path& file);
     bool save();
     bool write(const std::filesystem::path& file, bool overwrites);
+    void saveAs(const std::filesystem::path& file);
     void openDialog();
     void saveDialog();
     bool drawDialogs();
@@ -258,14 +263,16 @@ private:
     bool m_lacks_memory = false; // for a picture of the window's size
 
     Refinement m_refinement;
-    Picture m_refined;                                  // the still picture
-    FrameOptions m_developed;                           // of the samples that are shown
-    std::uint32_t m_shown_from = 1;                     // samples of the still picture with which it is shown
-    bool m_is_refined = false;                          // m_refined is being made, and the last kept picture is shown
-    bool m_has_samples = false;                         // of m_refined
-    bool m_is_within = false;                           // a sample
-    bool m_makes_world = false;                         // the device is making a world
-    bool m_is_first_world = false;                      // that is loaded has not been shown yet
+    Picture m_refined;              // the still picture
+    FrameOptions m_developed;       // of the samples that are shown
+    std::uint32_t m_shown_from = 1; // samples of the still picture with which it is shown
+    bool m_is_refined = false;      // m_refined is being made, and the last kept picture is shown
+    bool m_has_samples = false;     // m_refined has a sample in its own size
+    bool m_is_within = false;       // input is taken in the middle of a sample
+    bool m_makes_world = false;     // the device is making a world
+    bool m_is_first_world = false;  // the first files are being loaded, and nothing else is shown
+    std::optional<cli::InterruptWatch> m_watch;
+    bool m_has_traced = false;                          // a picture
     int m_redraws = 0;                                  // frames in which panels are drawn anew
     double m_since_redraw = 0;                          // seconds
     std::vector<std::function<void()>> m_when_free;     // what waits for the end of a sample

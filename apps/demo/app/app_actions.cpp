@@ -200,6 +200,7 @@ void App::reloadChangedShaders()
     finishAll();
     const ReloadedShaders result = reloadShaders(m_device.device().kernels(), m_shaders);
     m_renderer.forget();
+    m_is_refined = false; // a still picture is made anew
     m_shader_message = result.message;
     if (!result.message.empty())
     {

@@ -104,6 +104,14 @@ bool App::write(const std::filesystem::path& file, bool overwrites)
     return is_written;
 }
 
+void App::saveAs(const std::filesystem::path& file)
+{
+    if (write(file, true) && cli::treeFormatOf(file.string()) == "zvo")
+    {
+        m_saved_file = file; // by Ctrl+S from now on
+    }
+}
+
 void App::openDialog()
 {
     const Files& files = m_world_options.voxels.scenes;
@@ -129,9 +137,9 @@ bool App::drawDialogs()
         {
             loadFiles({*file});
         }
-        else if (write(*file, true) && cli::treeFormatOf(file->string()) == "zvo")
+        else
         {
-            m_saved_file = *file; // by Ctrl+S from now on
+            whenFree([this, file = *file] { saveAs(file); });
         }
     }
     if (m_after_loss)
@@ -139,9 +147,20 @@ bool App::drawDialogs()
         if (const std::optional<LossAnswer> answer = lossQuestion())
         {
             const std::function<void()> action = std::exchange(m_after_loss, nullptr);
-            if (answer == LossAnswer::Discard || (answer == LossAnswer::Save && save()))
+            if (answer == LossAnswer::Discard)
             {
                 action();
+            }
+            else if (answer == LossAnswer::Save)
+            {
+                whenFree(
+                    [this, action]
+                    {
+                        if (save())
+                        {
+                            action();
+                        }
+                    });
             }
         }
     }

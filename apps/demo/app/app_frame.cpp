@@ -61,7 +61,7 @@ void App::draw()
         return drawLive();
     }
     m_refinement.show(pictureState(), moves(), m_frame_seconds);
-    if (!m_refinement.isStill())
+    if (!m_refinement.isStill() || !m_has_traced)
     {
         drawLive();
     }
@@ -96,6 +96,21 @@ Picture App::pictureIn(PictureSize traced)
     return picture;
 }
 
+// What reads the results of a picture for which reserve() was called.
+App::FrameInFlight App::tracingFrame()
+{
+    FrameInFlight frame;
+    frame.looks = takeLooks();
+    if (const std::uint64_t elements = m_renderer.rayListElements(); elements != 0)
+    {
+        frame.ray_lists = std::make_unique<vk::BufferOf<gpu::DispatchArgs>>(m_device.device(), "ray lists", elements,
+                                                                            vk::MemoryKind::Readback);
+    }
+    frame.primary_ray_count = m_renderer.rayCount();
+    frame.integrator = m_renderer.integrator();
+    return frame;
+}
+
 // A frame that traces the picture.
 void App::drawLive()
 {
@@ -104,19 +119,12 @@ void App::drawLive()
     {
         return;
     }
-    FrameInFlight frame;
-    frame.looks = takeLooks();
+    FrameInFlight frame = tracingFrame();
     picture.probe = frame.looks.probe.get();
-    if (const std::uint64_t elements = m_renderer.rayListElements(); elements != 0)
-    {
-        frame.ray_lists = std::make_unique<vk::BufferOf<gpu::DispatchArgs>>(m_device.device(), "ray lists", elements,
-                                                                            vk::MemoryKind::Readback);
-        picture.ray_lists = frame.ray_lists.get();
-    }
+    picture.ray_lists = frame.ray_lists.get();
     frame.internal_scale = internalScale();
-    frame.primary_ray_count = m_renderer.rayCount();
-    frame.integrator = m_renderer.integrator();
     m_is_refined = false;
+    m_has_traced = true;
     m_renderer.showTraced();
     measure(false);
     const auto trace = [&](vk::FrameGraph& graph)
@@ -219,7 +227,7 @@ bool App::prepare(const Picture& picture)
             cli::talk(fmt::format("warning: no radiance cache: {}", error.what()));
             return false;
         }
-        if (error.code() != ErrorCode::Memory || m_drawn_count == 0)
+        if (error.code() != ErrorCode::Memory || !m_has_traced)
         {
             throw;
         }

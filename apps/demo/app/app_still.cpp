@@ -29,14 +29,22 @@ struct Abandoned
 
 } // namespace
 
+// In which a still picture is traced.
+PictureSize App::fullSize() const
+{
+    return scaledSize(m_window.framebufferSize(), m_view.internal_scale.value_or(1.0));
+}
+
 PictureState App::pictureState() const
 {
     PictureState state = {m_camera.camera(),
                           m_view.frame,
                           m_window.framebufferSize(),
+                          fullSize(),
                           m_world->scene.tree().version,
                           m_world->scene.moves() ? worldSeconds() : 0.0,
-                          m_renderer.skyVersion()};
+                          m_renderer.skyVersion(),
+                          hasSun()};
     state.options.exposure = {};
     state.options.denoise = false;
     return state;
@@ -109,11 +117,11 @@ bool App::beginStill()
     finishAll();
     const double scale = internalScale();
     const std::uint32_t live_samples = m_renderer.sampleCount();
-    m_device.run([&](vk::FrameGraph& graph) { m_renderer.keepPicture(graph); });
-    m_refined = pictureIn(scaledSize(m_window.framebufferSize(), m_view.internal_scale.value_or(1.0)));
+    m_refined = pictureIn(fullSize());
     m_refined.options.antialias = true;
     try
     {
+        m_device.run([&](vk::FrameGraph& graph) { m_renderer.keepPicture(graph); });
         m_renderer.reserve(m_world->scene.tree(), m_refined);
     }
     catch (const Error& error)
@@ -135,20 +143,20 @@ bool App::beginStill()
     return true;
 }
 
-void App::addSample()
+// Takes the options of development that the user has chosen.
+void App::takeDevelopment()
 {
     m_refined.options.exposure = m_view.frame.exposure;
     m_refined.options.denoise = m_view.frame.denoise;
-    std::unique_ptr<vk::BufferOf<gpu::DispatchArgs>> ray_lists;
-    if (const std::uint64_t elements = m_renderer.rayListElements(); elements != 0)
-    {
-        ray_lists = std::make_unique<vk::BufferOf<gpu::DispatchArgs>>(m_device.device(), "ray lists", elements,
-                                                                      vk::MemoryKind::Readback);
-    }
-    FrameLooks looks = takeLooks();
+}
+
+void App::addSample()
+{
+    takeDevelopment();
+    FrameInFlight frame = tracingFrame();
     Picture picture = m_refined;
-    picture.probe = looks.probe.get();
-    picture.ray_lists = ray_lists.get();
+    picture.probe = frame.looks.probe.get();
+    picture.ray_lists = frame.ray_lists.get();
     std::vector<vk::PassTime> passes;
     const auto sample = [&](vk::FrameGraph& graph)
     {
@@ -167,25 +175,23 @@ void App::addSample()
     }
     catch (const Abandoned&)
     {
+        // A sample that is not finished is forgotten, with those before it.
         m_is_within = false;
-        m_is_refined = false; // the renderer has forgotten the samples
+        m_is_refined = false;
+        m_wants_focus = m_wants_focus || frame.looks.focus;
         return;
     }
     m_has_samples = true;
     m_developed = m_refined.options;
-    answer(looks);
-    const RaysOfFrame rays =
-        ray_lists == nullptr ? RaysOfFrame{m_renderer.rayCount(), m_renderer.integrator()}
-                             : RaysOfFrame{rayCountOf({ray_lists->mappedData(), ray_lists->count()}), Integrator::Path};
-    m_stats.addPasses(passes, rays);
+    answer(frame.looks);
+    m_stats.addPasses(passes, frame.rays());
     m_redraws = std::max(m_redraws, 2); // now, and when panels know of the sample
 }
 
 // Shows the samples with other options of their development.
 void App::develop()
 {
-    m_refined.options.exposure = m_view.frame.exposure;
-    m_refined.options.denoise = m_view.frame.denoise;
+    takeDevelopment();
     if (m_refined.options == m_developed)
     {
         return;

@@ -64,25 +64,30 @@ void App::beginFirstWorld()
     }
 }
 
-// world: null if there is none.
+// world: null if there is none, as none was asked for or loading was cancelled.
 void App::showFirst(std::unique_ptr<World> world)
 {
-    m_is_first_world = false;
     if (world != nullptr)
     {
         m_world = std::move(world);
         m_camera.setSubject(m_world->subject);
         showTitle();
-    }
-    if (m_options.camera.empty() && !m_options.camera_path && recallScene())
-    {
-        applyViewOptions();
+        if (m_options.camera.empty() && !m_options.camera_path && recallScene())
+        {
+            applyViewOptions();
+        }
+        else
+        {
+            m_camera.show(cli::chooseCamera(m_options.camera, m_world->scene.animated(), m_world->subject, aspect()));
+        }
+        m_timeline.start(m_options.voxels.time.value_or(0.0));
     }
     else
     {
-        m_camera.show(cli::chooseCamera(m_options.camera, m_world->scene.animated(), m_world->subject, aspect()));
+        m_world_options.voxels.scenes.clear();
     }
-    m_timeline.start(m_options.voxels.time.value_or(0.0));
+    m_editor.release();
+    m_is_first_world = false;
     m_frame_start = Clock::now();
 }
 
@@ -167,6 +172,7 @@ void App::continueLoading()
     }
     m_makes_world = false;
     m_loading.reset();
+    noteRedraw();
     if (failure)
     {
         std::rethrow_exception(failure);

@@ -23,8 +23,6 @@ struct EditorLooks
 {
     std::optional<glm::dvec2> color; // where the brush's colour is taken
     std::vector<glm::dvec2> stroke;
-
-    [[nodiscard]] bool empty() const { return !color && stroke.empty(); }
 };
 
 /// The tools under the left mouse button: the brush, and the hand that drags dynamic objects. What is under the pointer

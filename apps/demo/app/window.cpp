@@ -130,6 +130,7 @@ void installCallbacks(GLFWwindow* window)
                         [](GLFWwindow* w, int count, const char** paths) {
                             windowOf(w).note(DropEvent{{paths, paths + count}});
                         });
+    glfwSetWindowRefreshCallback(window, [](GLFWwindow* w) { windowOf(w).noteDamage(); });
     glfwSetWindowCloseCallback(window, [](GLFWwindow* w) { windowOf(w).note(CloseEvent{}); });
 }
 

@@ -62,11 +62,16 @@ public:
     /// Callbacks of the window system put events here.
     template <typename Event> void note(Event event) { m_events.emplace_back(std::move(event)); }
     void noteMinimized(bool minimized) { m_is_minimized = minimized; }
+    void noteDamage() { m_is_damaged = true; }
+
+    /// Whether the window system has asked for the contents since the last call.
+    bool takeDamage() { return std::exchange(m_is_damaged, false); }
 
 private:
     GLFWwindow* m_window = nullptr;
     std::vector<InputEvent> m_events;
     bool m_scales = false;
+    bool m_is_damaged = false;
     bool m_is_minimized = false;
     bool m_has_no_extent = false; // because resize() said so
 };

@@ -17,6 +17,7 @@ struct PictureState
     ViewCamera camera;
     FrameOptions options; // without those of its development
     PictureSize window;
+    PictureSize size; // in which it is traced while it stands still
     std::uint64_t tree_version = 0;
     double seconds = 0; // of the scene
     std::uint64_t sky_version = 0;
