@@ -159,8 +159,8 @@ struct InspectParams // push constants of trace/inspect: one thread a pixel
     GPU_CONST_PTR(Hit) hits;
     GPU_CONST_PTR(Attribute) attributes; // of voxels, in the format of kFormat
     GPU_CONST_PTR(Attribute) node_attributes;
-    GPU_CONST_PTR(uint) pixels;     // [count], row by row
-    GPU_PTR(PixelReport) reports;   // [count]
+    GPU_CONST_PTR(uint) pixels;   // [count], row by row
+    GPU_PTR(PixelReport) reports; // [count]
     CameraRays camera;
     uint width;
     uint height;
