@@ -264,6 +264,11 @@ void App::apply(const InputEvent& event)
         return;
     }
     m_sun.handle(event, m_view.frame.trace.to_sun);
+    const auto* const button = std::get_if<MouseButtonEvent>(&event);
+    if (m_sun.isHeld() && button != nullptr && button->pressed)
+    {
+        return; // who drags the sun moves neither camera nor tool
+    }
     const PictureSize size = m_window.size();
     m_camera.handle(event, m_editor.hasButton(), static_cast<double>(size.height));
     m_editor.handle(event, m_camera.camera(), {size.width, size.height}, *m_world);
