@@ -6,6 +6,8 @@
 #include "common/progress.h"
 #include "zvo/error.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <utility>
 
@@ -143,11 +145,27 @@ bool App::beginStill()
     return true;
 }
 
-// Takes the options of development that the user has chosen.
+// Takes the options of development that the user has chosen. Without memory to denoise, that choice is taken back.
 void App::takeDevelopment()
 {
     m_refined.options.exposure = m_view.frame.exposure;
-    m_refined.options.denoise = m_view.frame.denoise;
+    if (std::exchange(m_refined.options.denoise, m_view.frame.denoise) == m_view.frame.denoise)
+    {
+        return;
+    }
+    try
+    {
+        m_renderer.reserve(m_world->scene.tree(), m_refined);
+    }
+    catch (const Error& error)
+    {
+        if (error.code() != ErrorCode::Memory)
+        {
+            throw;
+        }
+        cli::talk(fmt::format("warning: no denoising: {}", error.what()));
+        m_view.frame.denoise = m_refined.options.denoise = false;
+    }
 }
 
 void App::addSample()
