@@ -61,6 +61,7 @@ void App::beginFirstWorld()
     else
     {
         m_device.run([this](vk::FrameGraph& graph) { m_renderer.keepColor(graph, kLoadingColor); });
+        buildPanels(); // which show from the second time on
     }
 }
 
