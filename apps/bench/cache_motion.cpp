@@ -31,7 +31,7 @@ constexpr std::array<std::uint32_t, 6> kPassed = {0, 8, 16, 24, kFlickerFrames, 
 constexpr std::uint32_t kPassedSamples = 48; // a pixel of pictures that find it
 constexpr int kSmoothRadius = 2;             // pixels around, over whose mean it is looked for
 constexpr std::uint32_t kPathBounces = 32;
-const FrameOptions kCached = {.integrator = Integrator::Cache};
+const FrameOptions kCached = {.integrator = Integrator::Cache, .shading = Shading::Faces}; // as paths
 
 using Values = std::vector<double>;
 using Mask = std::vector<bool>;
@@ -191,7 +191,8 @@ private:
     void addFrame(FrameRenderer& tracer, const RadianceOptions& options)
     {
         // Each frame is a picture, as in a window where something moves.
-        const FrameOptions frame = {.integrator = Integrator::Cache, .radiance = options};
+        const FrameOptions frame = {
+            .integrator = Integrator::Cache, .radiance = options, .shading = Shading::Faces}; // as paths
         tracer.beginPicture(frame);
         m_device.run(
             [&](vk::FrameGraph& graph) {

@@ -40,6 +40,7 @@ inline constexpr auto kIntegrators = std::to_array<Named<Integrator>>({{"primary
                                                                        {"cones", Integrator::Cones}});
 inline constexpr auto kShadings =
     std::to_array<Named<Shading>>({{"smooth", Shading::Smooth}, {"faces", Shading::Faces}});
+inline constexpr const char* kShadingHelp = "light by the normals of voxels, or by their faces (default smooth)";
 inline constexpr const char* kIntegratorHelp =
     "light by a ray to the sun and a simple sky, by path tracing, from the radiance cache, or through cones that read "
     "that, to compare with (default primary)";

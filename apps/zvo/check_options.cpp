@@ -74,7 +74,7 @@ void checkIntegratorOptions(const RenderOptions& options)
     using Integrators = std::initializer_list<Integrator>;
     const Integrators of_paths = {Integrator::Path};
     const Integrators of_cache = {Integrator::Cache, Integrator::Cones};
-    const Integrators of_faces = {Integrator::Cache};
+    const Integrators of_faces = {Integrator::Primary, Integrator::Path, Integrator::Cache};
     const Integrators of_light = {Integrator::Path, Integrator::Cache, Integrator::Cones};
     const Integrators of_primary = {Integrator::Primary};
     const RenderOptions plain;

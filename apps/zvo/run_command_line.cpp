@@ -119,9 +119,7 @@ void addPathOptions(CLI::App& render, RenderOptions& options)
              fmt::format("faces that a frame of --integrator cache samples at most, 1 to {} (default 16384): each "
                          "takes up to two rays and two shadow rays",
                          kRadianceFacesMax));
-    addNamed(
-        render, "--shading", options.frame.shading, kShadings,
-        "kept light of --integrator cache by the normals of voxels, or by their faces, as paths are (default smooth)");
+    addNamed(render, "--shading", options.frame.shading, kShadings, kShadingHelp);
     addValue(render, "--aperture", path.lens_radius, parsePositive, "RADIUS",
              "radius of the lens of the camera, in world units (default: a pinhole)");
     addValue(render, "--focus", options.focus, parsePositive, "DISTANCE",

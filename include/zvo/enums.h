@@ -79,6 +79,14 @@ enum
     ZVO_VIEW_ORIGIN = 8      ///< orange: leaves that a dynamic update has made; only in trees with attributes
 };
 
+/// How the light of a lit picture is shown.
+typedef uint32_t ZvoShading;
+enum
+{
+    ZVO_SHADING_SMOOTH = 0, ///< by the normals of voxels: slopes of voxels look like planes
+    ZVO_SHADING_FACES = 1   ///< by the faces of voxels; so are those without attributes
+};
+
 typedef uint32_t ZvoBrushShape;
 enum
 {
@@ -177,6 +185,12 @@ enum class View : ZvoView
     Voxel = ZVO_VIEW_VOXEL,
     Bricks = ZVO_VIEW_BRICKS,
     Origin = ZVO_VIEW_ORIGIN,
+};
+
+enum class Shading : ZvoShading
+{
+    Smooth = ZVO_SHADING_SMOOTH,
+    Faces = ZVO_SHADING_FACES,
 };
 
 enum class BrushShape : ZvoBrushShape

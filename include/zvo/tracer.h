@@ -40,9 +40,10 @@ struct TraceInfo
     DVec3 to_sun = {-0.6, 0.75, 0.45}; // direction, any length
     float sun = 2.2F;                  // strength
     float exposure = 1.0F;
-    std::uint32_t occlusion_rays = 0; // View::Color: rays for each hit that find how much sky it sees; at most 64
-    float occlusion_reach = 0.1F;     // length of these rays, as a fraction of the grid's edge
-    float detail_pixels = 0.0F;       // stop at nodes that are at most this many pixels wide; 0: go on to voxels
+    std::uint32_t occlusion_rays = 0;  // View::Color: rays for each hit that find how much sky it sees; at most 64
+    float occlusion_reach = 0.1F;      // length of these rays, as a fraction of the grid's edge
+    float detail_pixels = 0.0F;        // stop at nodes that are at most this many pixels wide; 0: go on to voxels
+    Shading shading = Shading::Smooth; // View::Color
 };
 
 /// Options of a path-traced picture (docs/light.md).
@@ -53,7 +54,8 @@ struct PathInfo
     float lens_radius = 0.0F;    // world units; 0: a pinhole
     float focus_distance = 1.0F; // world units along CameraInfo::forward, where the picture is sharp; more than 0
     bool roulette = false;       // ends paths early that would bring little light, by chance
-    bool denoise = false;        // filters out the noise of few samples; each picture has its own random numbers
+    Shading shading = Shading::Smooth; // of what the camera sees
+    bool denoise = false;              // filters out the noise of few samples; each picture has its own random numbers
 
     // Another value of these does not begin anew.
     bool automatic_exposure = true; // by the picture's brightness, which is not known before (docs/light.md), times:
@@ -67,6 +69,7 @@ struct CachedPictureInfo
 {
     bool automatic_exposure = true; // as PathInfo's
     float exposure = 1.0F;
+    Shading shading = Shading::Smooth;
 };
 
 /// A depth image beside a picture, in the host's own projection, so that the host can composite voxels with what it

@@ -520,11 +520,11 @@ typedef struct ZvoTraceInfo
     uint32_t occlusion_rays;
     float occlusion_reach;
     float detail_pixels;
-    uint32_t reserved;
+    ZvoShading shading;
 } ZvoTraceInfo;
 
 #define ZVO_TRACE_INFO_INIT                                                                                            \
-    ZVO_STRUCT_INIT(ZvoTraceInfo, {-0.6, 0.75, 0.45}, ZVO_VIEW_COLOR, VK_TRUE, 2.2F, 1, 0, 0.1F, 0, 0)
+    ZVO_STRUCT_INIT(ZvoTraceInfo, {-0.6, 0.75, 0.45}, ZVO_VIEW_COLOR, VK_TRUE, 2.2F, 1, 0, 0.1F, 0, ZVO_SHADING_SMOOTH)
 
 /// As zvo::PathInfo.
 typedef struct ZvoPathInfo
@@ -540,9 +540,12 @@ typedef struct ZvoPathInfo
     uint32_t samples;
     VkBool32 denoise;
     uint32_t history_max;
+    ZvoShading shading;
+    uint32_t reserved;
 } ZvoPathInfo;
 
-#define ZVO_PATH_INFO_INIT ZVO_STRUCT_INIT(ZvoPathInfo, 8, 0, 0, 1, VK_FALSE, VK_TRUE, 1, 1, VK_FALSE, 16)
+#define ZVO_PATH_INFO_INIT                                                                                             \
+    ZVO_STRUCT_INIT(ZvoPathInfo, 8, 0, 0, 1, VK_FALSE, VK_TRUE, 1, 1, VK_FALSE, 16, ZVO_SHADING_SMOOTH, 0)
 
 /// As zvo::ImageTarget.
 typedef struct ZvoImageTarget
@@ -654,9 +657,11 @@ typedef struct ZvoCachedPictureInfo
     size_t struct_size;
     VkBool32 automatic_exposure;
     float exposure;
+    ZvoShading shading;
+    uint32_t reserved;
 } ZvoCachedPictureInfo;
 
-#define ZVO_CACHED_PICTURE_INFO_INIT ZVO_STRUCT_INIT(ZvoCachedPictureInfo, VK_TRUE, 1)
+#define ZVO_CACHED_PICTURE_INFO_INIT ZVO_STRUCT_INIT(ZvoCachedPictureInfo, VK_TRUE, 1, ZVO_SHADING_SMOOTH, 0)
 
 ZVO_C_API ZvoResult zvoTracerTraceCached(ZvoTracer* tracer, ZvoRecorder* recorder, const ZvoTree* tree,
                                          ZvoEnvironment* environment, ZvoRadianceCache* light,

@@ -7,7 +7,7 @@
 #include "light/bounds.glsl"
 #include "light/light_tree.h"
 
-// A point of a surface with a normal along an axis.
+// A point of a surface with any normal (length 1).
 struct LitPlace
 {
     vec3 position; // unit space

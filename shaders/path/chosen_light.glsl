@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 // Chosen lights, the shadow rays to them, and the weights of light that can be found in two ways (path/path.h).
-// Needs the constant kSampling and params.lists.
+// Needs the constants kSampling and kSmooth, and params.lists.
 #ifndef ZVO_SHADERS_PATH_CHOSEN_LIGHT_GLSL
 #define ZVO_SHADERS_PATH_CHOSEN_LIGHT_GLSL
 
-#include "lib/face.glsl"
 #include "lib/ray.glsl"
 #include "path/lists.glsl"
+#include "path/normal.glsl"
 #include "path/path.h"
 
 // The weight of light that was found in one way, by the densities of this and the other way.
@@ -38,7 +38,7 @@ struct ChosenDirection
 vec3 lightOfChoice(PathState state, ChosenDirection chosen)
 {
     const float pi = 3.14159265358979;
-    float cosine = dot(normalAxis(state.normal), chosen.direction);
+    float cosine = dot(normalOf(state.normal), chosen.direction);
     vec3 light = vec3(0.0);
     if (chosen.density > 0.0 && cosine > 0.0)
         light = state.throughput * chosen.light *

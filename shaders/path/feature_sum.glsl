@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Sums of what the camera's rays see.
-// Needs the constants kNodeLevels and kFormat, params.attributes and params.features.
+// Needs the constants kNodeLevels, kFormat and kSmooth, params.attributes and params.features.
 #ifndef ZVO_SHADERS_PATH_FEATURE_SUM_GLSL
 #define ZVO_SHADERS_PATH_FEATURE_SUM_GLSL
 
@@ -17,8 +17,9 @@ void addFeatures(uint pixel, Ray ray, Hit hit, vec3 direct, vec3 origin, vec3 fo
     sum.direct += direct;
     if (!isMiss(hit) && hitFace(hit) != kFaceInside)
     {
-        sum.albedo += surfaceAt(hit, ray.inverse_direction, params.attributes, params.attributes).albedo;
-        sum.normal += faceNormal(hitFace(hit), ray.inverse_direction);
+        Surface surface = surfaceAt(hit, normalize(1.0 / ray.inverse_direction), params.attributes, params.attributes);
+        sum.albedo += surface.albedo;
+        sum.normal += kSmooth ? surface.normal : faceNormal(hitFace(hit), ray.inverse_direction);
         sum.depth += dot(ray.origin + hit.t / ray.inverse_direction - origin, forward);
         sum.hits += 1.0;
     }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // How a path goes on from a face: in a random direction, with a kind of light to look for.
-// Needs the constants kNodeLevels and kEmission, params.gives, params.light_nodes, params.lists and
+// Needs the constants kNodeLevels, kEmission and kSmooth, params.gives, params.light_nodes, params.lists and
 // params.sample_index.
 #ifndef ZVO_SHADERS_PATH_NEXT_RAY_GLSL
 #define ZVO_SHADERS_PATH_NEXT_RAY_GLSL
@@ -10,7 +10,9 @@
 #include "lib/ray.glsl"
 #include "lib/sampling.glsl"
 #include "light/importance.glsl"
+#include "path/leave_by_normal.glsl"
 #include "path/lists.glsl"
+#include "path/normal.glsl"
 #include "path/path.h"
 #include "path/state.glsl"
 
@@ -35,11 +37,26 @@ vec3 pointOnFace(vec3 near, uvec3 cell, vec3 normal)
     return mix(mix(point, high, greaterThan(normal, vec3(0.0))), low, lessThan(normal, vec3(0.0)));
 }
 
+// What a face gets of the map, and of the sun, at most.
+vec2 outsideGives(uint face)
+{
+    return uintBitsToFloat(unpackUint2x32(uint64_t_ConstPtr(uint64_t(params.gives)).data[face]));
+}
+
+// Likewise, a surface with any normal.
+vec2 outsideGives(vec3 normal)
+{
+    vec2 gives = vec2(0.0);
+    for (uint axis = 0u; axis < 3u; ++axis)
+        gives += normal[axis] * normal[axis] * outsideGives(faceAlong(axis, normal));
+    return gives;
+}
+
 // How probable it is that light is looked for in the map, the sun and voxels, at a place: half of it in the same way
 // for all that may give any, half in proportion to how much it may give.
 vec3 kindsAt(LitPlace place, uint normal)
 {
-    vec3 gives = vec3(uintBitsToFloat(unpackUint2x32(uint64_t_ConstPtr(uint64_t(params.gives)).data[normal])), 0.0);
+    vec3 gives = vec3(isFaceNormal(normal) ? outsideGives(normal) : outsideGives(place.normal), 0.0);
     if (kEmission)
         gives.z = lightImportance(params.light_nodes, place, 0u, false) * exp2(-4.0 * float(kNodeLevels));
     vec3 present = vec3(gives.x > 0.0 ? 1.0 : 0.0, gives.y > 0.0 ? 1.0 : 0.0, gives.z > 0.0 ? 1.0 : 0.0);
@@ -48,11 +65,11 @@ vec3 kindsAt(LitPlace place, uint normal)
 }
 
 // Sets all that follows from a random direction, by its cosine with the normal: the path's density, kinds of light and
-// ray. state: has the normal of the face.
+// ray. state: has the normal of the surface.
 void leaveFace(vec3 position, uint bounce, inout NextRay next)
 {
     const float pi = 3.14159265358979;
-    vec3 normal = normalAxis(next.state.normal);
+    vec3 normal = normalOf(next.state.normal);
     vec2 u = samplePair(params.sample_index, next.state.seed, bounce * kPathPairs + kPairDirection);
     vec3 direction = cosineDirection(u.x, 2.0 * pi * u.y);
     next.state.density = direction.z / pi;
@@ -74,8 +91,9 @@ bool seeksVoxelLight(NextRay next)
 const float kRouletteMax = 0.95; // probability to go on
 const uint kRouletteFirst = 3u;  // bounce
 
-// The ray by which a path goes on from a hit, if it does. roulette: whether chance may end it.
-NextRay nextRay(PathState state, Ray ray, bool hits, Hit hit, vec3 albedo, bool roulette, uint bounce)
+// The ray by which a path goes on from a hit, if it does. normal_code: of the voxel's normal; only with kSmooth.
+// roulette: whether chance may end it.
+NextRay nextRay(PathState state, Ray ray, bool hits, Hit hit, vec3 albedo, uint normal_code, bool roulette, uint bounce)
 {
     state.throughput *= albedo;
     float strongest = max(state.throughput.r, max(state.throughput.g, state.throughput.b));
@@ -91,9 +109,12 @@ NextRay nextRay(PathState state, Ray ray, bool hits, Hit hit, vec3 albedo, bool 
     }
 
     state.normal = normalOfHit(min(hitFace(hit), 2u), ray.inverse_direction);
-    next.state = state;
     vec3 point = ray.origin + hit.t / ray.inverse_direction;
-    leaveFace(pointOnFace(point, hitCell(hit), normalAxis(state.normal)), bounce, next);
+    point = pointOnFace(point, hitCell(hit), normalAxis(state.normal));
+    if (kSmooth && bounce == 0u)
+        leaveByNormal(normal_code, ray, hit, state, point);
+    next.state = state;
+    leaveFace(point, bounce, next);
     return next;
 }
 

@@ -29,6 +29,9 @@
 // In one kernel, path/trace, for GPUs: a thread follows a path from the camera to its end, then another one. Nothing is
 // stored between bounces.
 //
+// With PathOptions::smooth, paths leave what the camera sees by the normals of voxels (path/normal.glsl). Between
+// surfaces light goes from face to face all the same, so there is as much of it as without.
+//
 // Pixels are numbered in strips of kStripRows rows, column by column within a strip.
 #ifndef ZVO_SHADERS_PATH_PATH_H
 #define ZVO_SHADERS_PATH_PATH_H
@@ -56,7 +59,7 @@ struct PathState
     vec3 throughput; // of light from the ray to the pixel
     uint slot;       // of its pixel in the batch
     uint seed;       // of the pixel's random numbers
-    uint normal;     // of the face where the ray starts, as in LightBrick::exposed
+    uint normal;     // of the surface where the ray starts (path/normal.glsl)
     float density;   // by solid angle, with which the ray's direction was chosen; 0: by the camera
     vec3 kinds;      // probabilities with which light was looked for at the face: in the map, the sun, voxels
 };
@@ -134,7 +137,8 @@ struct PathShadeParams // push constants of path/shade: a thread a path
     CONSTANT(2, bool, emission, kEmission, false)                /* there are emissive voxels */                       \
     CONSTANT(3, LightSampling, sampling, kSampling, kSampleBoth) /* how light is found */                              \
     CONSTANT(4, bool, last, kLast, false)                        /* paths end here */                                  \
-    CONSTANT(5, bool, roulette, kRoulette, false)
+    CONSTANT(5, bool, roulette, kRoulette, false)                                                                      \
+    CONSTANT(6, bool, smooth_normals, kSmooth, false) /* paths leave what they have hit by its normal */
 GPU_KERNEL(path, shade, Shade, PathShadeParams, PATH_SHADE_CONSTANTS)
 
 /// Push constants of the kernels that take a list of numbers of paths: a thread a number.
@@ -157,20 +161,24 @@ struct PathLightParams
     uint batch;
 };
 #define PATH_MISS_CONSTANTS(CONSTANT)                                                                                  \
-    CONSTANT(0, LightSampling, sampling, kSampling, kSampleBoth) /* how light is found */
+    CONSTANT(0, LightSampling, sampling, kSampling, kSampleBoth) /* how light is found */                              \
+    CONSTANT(1, bool, smooth_normals, kSmooth, false) /* paths have left what the camera sees, by its normal */
 GPU_KERNEL(path, miss, Miss, PathLightParams, PATH_MISS_CONSTANTS)
 #define PATH_EMITTER_CONSTANTS(CONSTANT)                                                                               \
     CONSTANT(0, LightSampling, sampling, kSampling, kSampleBoth) /* how light is found */                              \
     CONSTANT(1, uint, node_levels, kNodeLevels, 5u)                                                                    \
-    CONSTANT(2, bool, by_power, kByPower, false) /* lights are chosen whatever their place */
+    CONSTANT(2, bool, by_power, kByPower, false)      /* lights are chosen whatever their place */                     \
+    CONSTANT(3, bool, smooth_normals, kSmooth, false) /* as of path/miss */
 GPU_KERNEL(path, emitter, Emitter, PathLightParams, PATH_EMITTER_CONSTANTS)
 #define PATH_MAP_LIGHT_CONSTANTS(CONSTANT)                                                                             \
-    CONSTANT(0, LightSampling, sampling, kSampling, kSampleBoth) /* how light is found */
+    CONSTANT(0, LightSampling, sampling, kSampling, kSampleBoth) /* how light is found */                              \
+    CONSTANT(1, bool, smooth_normals, kSmooth, false) /* paths have left what the camera sees, by its normal */
 GPU_KERNEL(path, map_light, MapLight, PathLightParams, PATH_MAP_LIGHT_CONSTANTS)
 #define PATH_VOXEL_LIGHT_CONSTANTS(CONSTANT)                                                                           \
     CONSTANT(0, LightSampling, sampling, kSampling, kSampleBoth) /* how light is found */                              \
     CONSTANT(1, uint, node_levels, kNodeLevels, 5u)                                                                    \
-    CONSTANT(2, bool, by_power, kByPower, false) /* lights are chosen whatever their place */
+    CONSTANT(2, bool, by_power, kByPower, false)      /* lights are chosen whatever their place */                     \
+    CONSTANT(3, bool, smooth_normals, kSmooth, false) /* as of path/miss */
 GPU_KERNEL(path, voxel_light, VoxelLight, PathLightParams, PATH_VOXEL_LIGHT_CONSTANTS)
 
 struct PathConnectParams // push constants of path/connect: a thread a shadow ray
@@ -199,7 +207,7 @@ struct PixelFeatures
 {
     vec3 albedo;             // of faces; 0 where a ray hits none, like the next three
     float depth;             // unit space, along the camera's direction
-    vec3 normal;             // of faces
+    vec3 normal;             // of faces, or of voxels: as they are shaded
     float hits;              // number of samples that hit a face from outside of its voxel
     vec3 direct;             // radiance that the camera sees directly: of the map, the sun and emissive voxels
     float scattered_squared; // luminance of all other radiance, squared
@@ -221,7 +229,8 @@ struct PathFeaturesParams // push constants of path/features: a thread a pixel
 };
 #define PATH_FEATURES_CONSTANTS(CONSTANT)                                                                              \
     CONSTANT(0, uint, node_levels, kNodeLevels, 5u)                                                                    \
-    CONSTANT(1, AttributeFormat, format, kFormat, kFormat8) /* of attributes */
+    CONSTANT(1, AttributeFormat, format, kFormat, kFormat8) /* of attributes */                                        \
+    CONSTANT(2, bool, smooth_normals, kSmooth, false)       /* normals are those of voxels */
 GPU_KERNEL(path, features, Features, PathFeaturesParams, PATH_FEATURES_CONSTANTS)
 
 struct PathFinishParams // push constants of path/finish: a thread a pixel
@@ -266,7 +275,8 @@ struct PathTraceParams // push constants of path/trace: a workgroup takes kPathG
     CONSTANT(8, bool, by_power, kByPower, false)                 /* lights are chosen whatever their place */          \
     CONSTANT(9, bool, roulette, kRoulette, false)                                                                      \
     CONSTANT(10, bool, overlays, kOverlays, false) /* of a DAG */                                                      \
-    CONSTANT(11, bool, features, kFeatures, false)
+    CONSTANT(11, bool, features, kFeatures, false)                                                                     \
+    CONSTANT(12, bool, smooth_normals, kSmooth, false) /* what the camera sees is shaded by the normals of voxels */
 GPU_KERNEL(path, trace, Trace, PathTraceParams, PATH_TRACE_CONSTANTS)
 
 struct PathAddPictureParams // push constants of path/add_picture: a thread a pixel

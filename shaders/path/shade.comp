@@ -42,7 +42,8 @@ void main()
     if (kLast)
         return;
 
-    NextRay next = nextRay(state, ray, hits, hit, albedoOf(stored), kRoulette, params.bounce);
+    NextRay next =
+        nextRay(state, ray, hits, hit, albedoOf(stored), stored.normal, kRoulette, params.bounce);
     uint next_path = appendTo(params.bounce + 1u, kListPaths, next.exists);
     if (next.exists)
     {

@@ -121,9 +121,9 @@ bool advance(Ray ray, Hit hit, inout Path path, inout Shadow shadow)
     NextRay next;
     next.exists = false;
     if (!isMiss(hit) && path.bounce < params.bounces)
-        {
-        vec3 albedo = albedoOf(attributeAt(true, hit, params.attributes));
-        next = nextRay(path.state, ray, true, hit, albedo, kRoulette, path.bounce);
+    {
+        Attribute stored = attributeAt(true, hit, params.attributes);
+        next = nextRay(path.state, ray, true, hit, albedoOf(stored), stored.normal, kRoulette, path.bounce);
     }
     if (next.exists)
     {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Light of voxels: what a ray meets, and what is chosen.
-// Needs the constants kNodeLevels, kByPower and kSampling, params.light_nodes, params.light_bricks, params.sample_index
-// and params.tree.
+// Needs the constants kNodeLevels, kByPower, kSampling and kSmooth, params.light_nodes, params.light_bricks,
+// params.sample_index and params.tree.
 #ifndef ZVO_SHADERS_PATH_VOXEL_LIGHT_GLSL
 #define ZVO_SHADERS_PATH_VOXEL_LIGHT_GLSL
 
@@ -12,6 +12,7 @@
 #include "light/choose.glsl"
 #include "light/importance.glsl"
 #include "path/chosen_light.glsl"
+#include "path/normal.glsl"
 #include "path/path.h"
 #include "path/state.glsl"
 
@@ -23,7 +24,7 @@ vec3 lightOfHit(PathState state, Ray ray, Hit hit)
     if (kSampling == kSampleBoth && hitFace(hit) != kFaceInside)
     {
         uint normal = normalOfHit(hitFace(hit), direction);
-        LitPlace from = LitPlace(ray.origin, normalAxis(state.normal));
+        LitPlace from = LitPlace(ray.origin, normalOf(state.normal));
         float cosine = abs(dot(normalAxis(normal), direction));
         float probability =
             lightProbability(params.light_nodes, params.light_bricks, from, hitCell(hit), normal);
@@ -38,7 +39,7 @@ ChosenDirection chooseVoxelLight(PathState state, vec3 origin, uint bounce)
 {
     uint pair = bounce * kPathPairs;
     vec2 point = samplePair(params.sample_index, state.seed, pair + kPairPoint);
-    ChosenLight light = chooseLight(params.light_nodes, params.light_bricks, LitPlace(origin, normalAxis(state.normal)),
+    ChosenLight light = chooseLight(params.light_nodes, params.light_bricks, LitPlace(origin, normalOf(state.normal)),
                                     samplePair(params.sample_index, state.seed, pair + kPairChoice));
     float edge = exp2(-2.0 * float(kNodeLevels));
     vec3 way = pointOfFace(light.cell, light.face, edge, point) - origin;

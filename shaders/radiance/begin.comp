@@ -14,6 +14,8 @@ layout(local_size_x = kRadianceGroup) in;
 #include "lib/sampling.glsl"
 #include "path/state.glsl"
 
+const bool kSmooth = false; // light goes from face to face
+
 #define FACES_BINDING 0
 #define STATES_BINDING 1
 #include "path/lists.glsl"

@@ -14,6 +14,8 @@ layout(local_size_x = kRadianceGroup) in;
 #include "lib/ray.glsl"
 #include "path/state.glsl"
 
+const bool kSmooth = false; // light goes from face to face
+
 #define FACES_BINDING 0
 #define STATES_BINDING 1
 #include "path/lists.glsl"
@@ -36,7 +38,7 @@ void main()
     if (exists && is_lit)
         params.radiance.data[state.slot] += state.throughput * albedoOf(stored) * light;
 
-    NextRay next = nextRay(state, ray, exists && !is_lit, hit, albedoOf(stored), false, 1u);
+    NextRay next = nextRay(state, ray, exists && !is_lit, hit, albedoOf(stored), kNoNormal, false, 1u);
     uint path = appendTo(1u, kListPaths, next.exists);
     if (next.exists)
     {

@@ -64,8 +64,9 @@ struct ShadowParams // push constants of trace/shadow
     CONSTANT(4, bool, orthographic, kOrthographic, false)                                                              \
     CONSTANT(5, AttributeFormat, format, kFormat, kFormat8) /* of attributes */                                        \
     PATHS_CONSTANTS(CONSTANT, 6)                                                                                       \
-    CONSTANT(8, bool, resume, kResume, false) /* only rays that the round before left unfinished */                    \
-    CONSTANT(9, bool, more, kMore, false)     /* another round follows */
+    CONSTANT(8, bool, resume, kResume, false)         /* only rays that the round before left unfinished */            \
+    CONSTANT(9, bool, more, kMore, false)             /* another round follows */                                      \
+    CONSTANT(10, bool, smooth_normals, kSmooth, true) /* light arrives at voxels by their normals */
 GPU_KERNEL(trace, shadow, Shadow, ShadowParams, TRACE_SHADOW_CONSTANTS)
 
 struct OcclusionParams // push constants of trace/occlusion
@@ -92,7 +93,8 @@ struct OcclusionParams // push constants of trace/occlusion
     CONSTANT(4, bool, orthographic, kOrthographic, false)                                                              \
     CONSTANT(5, AttributeFormat, format, kFormat, kFormat8) /* of attributes */                                        \
     PATHS_CONSTANTS(CONSTANT, 6)                                                                                       \
-    CONSTANT(8, bool, shadows, kShadows, true) /* trace/shadow has run */
+    CONSTANT(8, bool, shadows, kShadows, true)       /* trace/shadow has run */                                        \
+    CONSTANT(9, bool, smooth_normals, kSmooth, true) /* as of trace/shadow */
 GPU_KERNEL(trace, occlusion, Occlusion, OcclusionParams, TRACE_OCCLUSION_CONSTANTS)
 
 struct SkyParams // push constants of trace/sky: one thread kSkyRows pixels of a column
@@ -138,7 +140,8 @@ struct ShadeParams // push constants of trace/shade
     CONSTANT(2, AttributeFormat, format, kFormat, kFormat8) /* of attributes */                                        \
     CONSTANT(3, bool, emission, kEmission, false)                                                                      \
     CONSTANT(4, bool, light, kLight, true) /* params.light was filled */                                               \
-    CONSTANT(5, TexelFormat, texels, kTexels, kTexelRgba8)
+    CONSTANT(5, TexelFormat, texels, kTexels, kTexelRgba8)                                                             \
+    CONSTANT(6, bool, smooth_normals, kSmooth, true) /* as of trace/shadow */
 GPU_KERNEL(trace, shade, Shade, ShadeParams, TRACE_SHADE_CONSTANTS)
 
 struct ViewsParams // push constants of trace/views

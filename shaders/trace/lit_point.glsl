@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The origin of rays that gather light for a hit: rays that begin below the root, as trace/traverse_paths.glsl traces
-// them.
+// them. With kSmooth light arrives by the normal of the voxel, else by that of its face.
+// Needs the constant kSmooth.
 #ifndef ZVO_SHADERS_TRACE_LIT_POINT_GLSL
 #define ZVO_SHADERS_TRACE_LIT_POINT_GLSL
 
@@ -28,7 +29,7 @@ LitPoint litPoint(Hit hit, vec3 direction, uint format, Attribute_ConstPtr voxel
     vec3 face_normal = faceNormal(hitFace(hit), direction);
     LitPoint point;
     point.normal = face_normal;
-    if (format != kFormatNone && !isMiss(hit))
+    if (kSmooth && format != kFormatNone && !isMiss(hit))
     {
         bool voxel = !kDetail || hitLevel(hit) == kNodeLevels;
         point.normal =

@@ -13,8 +13,8 @@ layout(local_size_x = kTilePixels) in;
 #include "lib/dispatch.glsl"
 #include "lib/hit.glsl"
 #include "lib/sky.glsl"
-#include "trace/texel.glsl"
 #include "trace/surface.glsl"
+#include "trace/texel.glsl"
 
 const float kBounced = 0.12; // part of the sky's light that other surfaces reflect even into closed corners
 
@@ -53,6 +53,8 @@ void main()
     if (!kOrthographic)
         direction += rayOffset(pixelOffset(pixel, size), params.half_pixel_x, params.half_pixel_y);
     Surface surface = surfaceAt(hit, direction, params.attributes, params.node_attributes);
+    if (!kSmooth)
+        surface.normal = faceNormal(hitFace(hit), direction);
     vec3 emission = kEmission && surface.may_emit ? emissionAt(hit.index) : vec3(0.0);
     storeTexel(kTexels, params.image, i, developTexel(kTexels, lit(surface, emission, light), params.exposure, pixel));
 }

@@ -102,11 +102,11 @@ ZVO_C_STRUCT(ZvoCameraInfo, CameraInfo, ZVO_CAMERA_INFO_INIT,
              (it.position, it.forward, it.up, it.vertical_fov, it.half_height, it.orthographic), ());
 ZVO_C_STRUCT(ZvoTraceInfo, TraceInfo, ZVO_TRACE_INFO_INIT,
              (it.to_sun, it.view, it.shadows, it.sun, it.exposure, it.occlusion_rays, it.occlusion_reach,
-              it.detail_pixels),
+              it.detail_pixels, it.shading),
              ());
 ZVO_C_STRUCT(ZvoPathInfo, PathInfo, ZVO_PATH_INFO_INIT,
              (it.bounces, it.seed, it.lens_radius, it.focus_distance, it.roulette, it.automatic_exposure, it.exposure,
-              it.samples, it.denoise, it.history_max),
+              it.samples, it.denoise, it.history_max, it.shading),
              ());
 ZVO_C_STRUCT(ZvoImageTarget, ImageTarget, ZVO_IMAGE_TARGET_INIT,
              (it.image, it.format, it.layout, it.offset, it.mip_level, it.array_layer, it.extent), ());
@@ -115,7 +115,7 @@ ZVO_C_STRUCT(ZvoRadianceCacheInfo, RadianceCacheInfo, ZVO_RADIANCE_CACHE_INFO_IN
              ());
 ZVO_C_STRUCT(ZvoCachedFrameInfo, CachedFrameInfo, ZVO_CACHED_FRAME_INFO_INIT, (it.rays, it.seed), ());
 ZVO_C_STRUCT(ZvoCachedPictureInfo, CachedPictureInfo, ZVO_CACHED_PICTURE_INFO_INIT,
-             (it.automatic_exposure, it.exposure), ());
+             (it.automatic_exposure, it.exposure, it.shading), ());
 ZVO_C_STRUCT(ZvoRadianceCacheStats, RadianceCacheStats, ZVO_RADIANCE_CACHE_STATS_INIT, (it.faces, it.refused), ());
 
 #undef ZVO_C_STRUCT

@@ -160,6 +160,7 @@ const BrushInfo& checked(const BrushInfo& info)
 const TraceInfo& checked(const TraceInfo& info)
 {
     checkedEnum(info.view, View::Origin, "TraceInfo::view");
+    checkedEnum(info.shading, Shading::Faces, "TraceInfo::shading");
     if (info.occlusion_rays > kOcclusionRaysMax)
     {
         throw Error(ErrorCode::Usage, fmt::format("{} occlusion rays are more than the {} that there can be",
@@ -179,6 +180,7 @@ const TraceInfo& checked(const TraceInfo& info)
 const PathInfo& checked(const PathInfo& info)
 {
     requireAtMost(info.bounces, kBouncesMax, "PathInfo::bounces");
+    checkedEnum(info.shading, Shading::Faces, "PathInfo::shading");
     checkedAmount(info.lens_radius, "PathInfo::lens_radius");
     if (!(checkedAmount(info.focus_distance, "PathInfo::focus_distance") > 0))
     {
@@ -192,6 +194,7 @@ const PathInfo& checked(const PathInfo& info)
 
 const CachedPictureInfo& checked(const CachedPictureInfo& info)
 {
+    checkedEnum(info.shading, Shading::Faces, "CachedPictureInfo::shading");
     checkedAmount(info.exposure, "CachedPictureInfo::exposure");
     return info;
 }

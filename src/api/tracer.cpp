@@ -32,6 +32,7 @@ FrameOptions optionsOf(const TraceInfo& info)
     options.trace.occlusion_rays = info.occlusion_rays;
     options.trace.occlusion_reach = info.occlusion_reach;
     options.trace.detail_pixels = info.detail_pixels;
+    options.shading = info.shading;
     options.exposure.factor = info.exposure;
     return options;
 }
@@ -45,6 +46,7 @@ FrameOptions optionsOf(const PathInfo& info)
     options.path.lens_radius = info.lens_radius;
     options.path.focus_distance = info.focus_distance;
     options.path.roulette = info.roulette;
+    options.shading = info.shading;
     options.denoise = info.denoise;
     options.history_max = info.history_max;
     options.exposure = {info.automatic_exposure, info.exposure};
@@ -55,6 +57,7 @@ FrameOptions optionsOf(const CachedPictureInfo& info)
 {
     FrameOptions options;
     options.integrator = Integrator::Cache;
+    options.shading = info.shading;
     options.exposure = {checked(info).automatic_exposure, info.exposure};
     return options;
 }

@@ -139,6 +139,16 @@ DeviceTree litTree(vk::HeadlessDevice& device, std::vector<LitVoxel> voxels, std
     return tree;
 }
 
+void setNormals(vk::HeadlessDevice& device, DeviceTree& tree, std::span<const gpu::uint> codes)
+{
+    std::vector<gpu::Attribute> attributes = device.download(tree.voxel_attributes);
+    for (std::size_t i = 0; i < attributes.size(); ++i)
+    {
+        attributes[i].normal = codes[i % codes.size()];
+    }
+    tree.voxel_attributes = device.makeBuffer("voxel attributes", std::span<const gpu::Attribute>(attributes));
+}
+
 std::vector<LitVoxel> roomOf(const LitVoxel& wall, std::uint32_t edge, std::uint32_t thickness)
 {
     std::vector<LitVoxel> voxels;

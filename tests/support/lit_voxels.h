@@ -5,9 +5,11 @@
 #include "core/tree/device_tree.h"
 #include "vk/headless.h"
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <glm/glm.hpp>
+#include <span>
 #include <vector>
 
 namespace zvo::test
@@ -29,6 +31,12 @@ glm::dvec3 albedoOf(const LitVoxel& voxel);
 /// The tree of voxels in any order. The grid has its corner at 0 and voxels of size 1. of_nodes: nodes have attributes,
 /// the mean colour of the voxels below them and whether one of these emits.
 DeviceTree litTree(vk::HeadlessDevice& device, std::vector<LitVoxel> voxels, std::uint32_t depth, bool of_nodes = true);
+
+/// Gives the voxels of such a tree normals in turns: octahedral codes, or kNoNormal.
+void setNormals(vk::HeadlessDevice& device, DeviceTree& tree, std::span<const gpu::uint> codes);
+
+/// The octahedral codes of +z, of the diagonal (1, 1, 1), of one that leans away from places above, and none.
+inline constexpr std::array<gpu::uint, 4> kObliqueNormals = {0, 0x2AAA2AAAU, 0xD5560000U, gpu::kNoNormal};
 
 /// The voxels of a box for whose cells make() gives one: from low up to, but without, high.
 void addBox(std::vector<LitVoxel>& voxels, const glm::uvec3& low, const glm::uvec3& high, const LitVoxel& voxel);

@@ -83,6 +83,16 @@ void showIntegrator(ViewState& view, const ViewInfo& info)
     }
 }
 
+void showShading(ViewState& view, const ViewInfo&)
+{
+    constexpr std::array kNames = {"smooth", "by faces"};
+    int chosen = static_cast<int>(view.frame.shading);
+    if (ImGui::Combo("shading", &chosen, kNames.data(), static_cast<int>(kNames.size())))
+    {
+        view.frame.shading = static_cast<Shading>(chosen);
+    }
+}
+
 void showDenoise(ViewState& view, const ViewInfo&)
 {
     ImGui::Checkbox("denoise", &view.frame.denoise);

@@ -10,6 +10,7 @@ namespace zvo::demo
 
 void showView(ViewState& view, const ViewInfo& info);
 void showIntegrator(ViewState& view, const ViewInfo& info);
+void showShading(ViewState& view, const ViewInfo& info);
 void showDenoise(ViewState& view, const ViewInfo& info);
 void showShadows(ViewState& view, const ViewInfo& info);
 void showOcclusion(ViewState& view, const ViewInfo& info);

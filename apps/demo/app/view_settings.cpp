@@ -133,6 +133,11 @@ bool byPaths(const ViewState& view)
     return view.frame.shownIntegrator() == Integrator::Path;
 }
 
+bool byNormalsOrFaces(const ViewState& view)
+{
+    return withLight(view) && view.frame.integrator != Integrator::Cones;
+}
+
 bool byPathsThroughALens(const ViewState& view)
 {
     return byPaths(view) && view.frame.path.lens_radius > 0;
@@ -163,6 +168,9 @@ std::vector<ViewSetting> makeSettings()
         setting(
             "integrator", [](auto& view) -> auto& { return view.frame.integrator; }, named(cli::kIntegrators),
             {kViewGroup, cli::listOf(cli::kIntegrators, "|"), cli::kIntegratorHelp}, showIntegrator, withLight),
+        setting(
+            "shading", [](auto& view) -> auto& { return view.frame.shading; }, named(cli::kShadings),
+            {kViewGroup, cli::listOf(cli::kShadings, "|"), cli::kShadingHelp}, showShading, byNormalsOrFaces),
         setting(
             "denoise", [](auto& view) -> auto& { return view.frame.denoise; }, flag(),
             {kViewGroup, "", "smooth the noise of few paths, but not edges"}, showDenoise, byPaths),

@@ -26,24 +26,17 @@ constexpr bool usesCache(Integrator integrator)
     return integrator == Integrator::Cache || integrator == Integrator::Cones;
 }
 
-/// How the light of a picture is shown.
-enum class Shading : std::uint8_t
-{
-    Smooth, ///< by the normals of voxels
-    Faces,  ///< by the faces of voxels
-};
-
 /// Options of a picture. Those of other integrators than its own have no effect.
 struct FrameOptions
 {
     Integrator integrator = Integrator::Primary;
-    TraceOptions trace = {};                          // Integrator::Primary; the view counts for all
-    PathOptions path = {};                            // Integrator::Path
+    TraceOptions trace = {}; // Integrator::Primary, but for the shading; the view counts for all
+    PathOptions path = {};   // Integrator::Path, but for PathOptions::smooth
     std::optional<PathForm> path_form = std::nullopt; // not given: pathFormOn() the device
     bool denoise = false;                             // Integrator::Path: filters the noise of few samples (Denoiser)
     std::uint32_t history_max = 16;                   // as in Denoiser::denoise()
     RadianceOptions radiance = {};                    // Integrator::Cache and Cones
-    Shading shading = Shading::Smooth;                // Integrator::Cache
+    Shading shading = Shading::Smooth;                // of all integrators but Cones
     bool antialias = false; // Integrator::Primary: pictures are means of samples, each through another point of pixels
     Exposure exposure = {}; // Integrator::Primary: the factor alone
 

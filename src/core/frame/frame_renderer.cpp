@@ -12,6 +12,7 @@ namespace
 PathOptions pathOptions(const FrameOptions& options)
 {
     PathOptions path = options.path;
+    path.smooth = options.shading == Shading::Smooth;
     path.features = path.features || options.denoise;
     path.reseeds = path.reseeds || options.denoise; // earlier pictures help if they have other noise
     return path;
@@ -52,6 +53,7 @@ void FrameRenderer::addSample(vk::FrameGraph& graph, const FrameSubject& subject
     {
         TraceOptions trace = options.trace;
         trace.exposure = options.exposure.factor;
+        trace.shading = options.shading;
         if (options.hasSamples())
         {
             primaryOfSize().add(graph, m_tracer, subject.tree, subject.camera, trace);

@@ -91,13 +91,15 @@ void tracePaths(vk::FrameGraph& graph, const PathLight& light, PathBatch& batch,
 void addMetLight(vk::FrameGraph& graph, const PathLight& light, PathBatch& batch, std::size_t paths,
                  std::uint32_t bounce)
 {
-    takeList(graph, gpu::path::Miss{.sampling = light.sampling}, gpu::kListMisses, light, batch, paths, bounce);
+    takeList(graph, gpu::path::Miss{.sampling = light.sampling, .smooth_normals = light.smooth}, gpu::kListMisses,
+             light, batch, paths, bounce);
     if (hasEmission(light.tree))
     {
         takeList(graph,
                  gpu::path::Emitter{.sampling = light.sampling,
                                     .node_levels = light.tree.grid.nodeLevels(),
-                                    .by_power = light.by_power},
+                                    .by_power = light.by_power,
+                                    .smooth_normals = light.smooth},
                  gpu::kListEmitters, light, batch, paths, bounce);
     }
 }
@@ -105,13 +107,15 @@ void addMetLight(vk::FrameGraph& graph, const PathLight& light, PathBatch& batch
 void addChosenLight(vk::FrameGraph& graph, const PathLight& light, PathBatch& batch, std::size_t paths,
                     std::uint32_t bounce)
 {
-    takeList(graph, gpu::path::MapLight{.sampling = light.sampling}, gpu::kListMapLights, light, batch, paths, bounce);
+    takeList(graph, gpu::path::MapLight{.sampling = light.sampling, .smooth_normals = light.smooth},
+             gpu::kListMapLights, light, batch, paths, bounce);
     if (hasEmission(light.tree))
     {
         takeList(graph,
                  gpu::path::VoxelLight{.sampling = light.sampling,
                                        .node_levels = light.tree.grid.nodeLevels(),
-                                       .by_power = light.by_power},
+                                       .by_power = light.by_power,
+                                       .smooth_normals = light.smooth},
                  gpu::kListVoxelLights, light, batch, paths, bounce);
     }
     const RayListLength shadows = listLength(batch.lists, bounce, gpu::kListShadows);

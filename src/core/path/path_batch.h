@@ -58,6 +58,7 @@ struct PathLight
     vk::BufferOf<gpu::TraceStatus>& status;
     LightSampling sampling = LightSampling::Both;
     bool by_power = false; // chooses voxels by their light alone, wherever they are
+    bool smooth = false;   // paths have left what the camera sees, by its normal
     std::uint32_t sample_index = 0;
     std::uint64_t path_count = 0; // the most paths that the lists hold
     /// Set: marks paths whose shadow rays have hit a voxel from this index of attributes on, by bit 31 of their numbers

@@ -63,6 +63,11 @@ void readRanks(vk::AnyPass& pass, const DeviceTree& tree)
     }
 }
 
+bool isSmooth(const DeviceTree& tree, const PathOptions& options)
+{
+    return options.smooth && tree.hasAttributes();
+}
+
 } // namespace
 
 PathForm pathFormOn(const vk::Device& device)
@@ -264,7 +269,8 @@ void PathTracer::traceInOneKernel(vk::FrameGraph& graph, const Batch& batch)
                                   .by_power = options.lights_by_power,
                                   .roulette = options.roulette,
                                   .overlays = tree.hasOverlays(),
-                                  .features = options.features};
+                                  .features = options.features,
+                                  .smooth_normals = isSmooth(tree, options)};
     vk::Pass pass = graph.addPass(traversing(kernel, tree, {}));
     gpu::PathTraceParams params{};
     params.tree = pass.read(m_lights.table());
@@ -314,12 +320,20 @@ void PathTracer::traceInStages(vk::FrameGraph& graph, const Batch& batch)
                                           .pixel_count = batch.pixel_count,
                                           .sample_index = m_sample_count});
     }
-    const PathLight light = {batch.tree,       batch.environment,       m_lights,       m_pixels->status,
-                             options.sampling, options.lights_by_power, m_sample_count, batch.pixel_count};
+    PathLight light = {.tree = batch.tree,
+                       .environment = batch.environment,
+                       .lights = m_lights,
+                       .status = m_pixels->status,
+                       .sampling = options.sampling,
+                       .by_power = options.lights_by_power,
+                       .sample_index = m_sample_count,
+                       .path_count = batch.pixel_count};
+    const bool is_smooth = isSmooth(batch.tree, options);
     for (std::uint32_t bounce = 0; bounce <= bounces; ++bounce)
     {
         tracePaths(graph, light, paths, bounce % kPathLists, bounce);
         shade(graph, batch, bounce);
+        light.smooth = is_smooth && bounce == 1;
         addMetLight(graph, light, paths, bounce % kPathLists, bounce);
         if (bounce == 0 && options.features)
         {
@@ -327,6 +341,7 @@ void PathTracer::traceInStages(vk::FrameGraph& graph, const Batch& batch)
         }
         if (bounce < bounces && options.sampling != LightSampling::Chance)
         {
+            light.smooth = is_smooth && bounce == 0;
             addChosenLight(graph, light, paths, (bounce + 1) % kPathLists, bounce);
         }
     }
@@ -342,8 +357,9 @@ void PathTracer::addFeatures(vk::FrameGraph& graph, const Batch& batch)
 {
     Pixels& pixels = *m_pixels;
     const DeviceTree& tree = batch.tree;
-    vk::Pass pass =
-        graph.addPass(gpu::path::Features{.node_levels = tree.grid.nodeLevels(), .format = tree.attributeFormat()});
+    vk::Pass pass = graph.addPass(gpu::path::Features{.node_levels = tree.grid.nodeLevels(),
+                                                      .format = tree.attributeFormat(),
+                                                      .smooth_normals = isSmooth(tree, batch.options)});
     pass.dispatch(batch.pixel_count, {.attributes = readVoxelAttributes(pass, tree),
                                       .rays = pass.read(pixels.batch.rays[0]),
                                       .hits = pass.read(pixels.batch.hits),
@@ -382,7 +398,8 @@ void PathTracer::shade(vk::FrameGraph& graph, const Batch& batch, std::uint32_t 
                                                    .emission = emits,
                                                    .sampling = batch.options.sampling,
                                                    .last = bounce == std::min(batch.options.bounces, kBouncesMax),
-                                                   .roulette = batch.options.roulette});
+                                                   .roulette = batch.options.roulette,
+                                                   .smooth_normals = bounce == 0 && isSmooth(tree, batch.options)});
     pass.dispatchIndirect(paths.lists, listArgs(bounce, gpu::kListPaths),
                           {.attributes = readVoxelAttributes(pass, tree),
                            .emission_words = pass.readIf(emits, tree.emission_words),

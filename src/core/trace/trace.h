@@ -38,6 +38,7 @@ inline constexpr std::uint32_t kOcclusionRaysMax = 64;
 struct TraceOptions
 {
     View view = TraceInfo().view;
+    Shading shading = TraceInfo().shading; // View::Color
     bool beam = true; // begin at what a tile's rays may hit, and below the root; the picture is the same
     bool shadows = TraceInfo().shadows;
     glm::dvec3 to_sun = {TraceInfo().to_sun[0], TraceInfo().to_sun[1], TraceInfo().to_sun[2]};

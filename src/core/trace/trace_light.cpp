@@ -101,7 +101,8 @@ void shadeLit(vk::FrameGraph& graph, const DeviceTree& tree, const TraceCamera& 
                                         .format = formatToRead(tree, options),
                                         .emission = usesAttributes(tree, options) && tree.emission.count() != 0,
                                         .light = needsLight(options),
-                                        .texels = target.format});
+                                        .texels = target.format,
+                                        .smooth_normals = options.shading == Shading::Smooth});
     auto params = shadeParams<gpu::ShadeParams>(pass, tree, camera, buffers, target);
     params.light = pass.read(buffers.light);
     params.emission_words = pass.read(tree.emission_words);
@@ -137,7 +138,9 @@ void traceLight(vk::FrameGraph& graph, const DeviceTree& tree, const NodePaths& 
     const AttributeFormat format = formatToRead(tree, options);
     if (options.shadows)
     {
-        const gpu::trace::Shadow kernel{.orthographic = camera.orthographic, .format = format};
+        const gpu::trace::Shadow kernel{.orthographic = camera.orthographic,
+                                        .format = format,
+                                        .smooth_normals = options.shading == Shading::Smooth};
         const gpu::vec3 to_sun = sunDirection(options);
         const auto declare = [&](vk::AnyPass& pass)
         {
@@ -152,8 +155,10 @@ void traceLight(vk::FrameGraph& graph, const DeviceTree& tree, const NodePaths& 
     if (options.occlusion_rays != 0)
     {
         const Grid& grid = tree.grid;
-        const gpu::trace::Occlusion kernel{
-            .orthographic = camera.orthographic, .format = format, .shadows = options.shadows};
+        const gpu::trace::Occlusion kernel{.orthographic = camera.orthographic,
+                                           .format = format,
+                                           .shadows = options.shadows,
+                                           .smooth_normals = options.shading == Shading::Smooth};
         vk::Pass pass = graph.addPass(beginningOnPaths(traversing(kernel, tree, options), tree, options));
         auto params = lightParams<gpu::OcclusionParams>(pass, tree, paths, camera, options, buffers);
         params.light = pass.readWrite(buffers.light);

@@ -136,6 +136,17 @@ TEST(PathForms, AreTheSameInEveryWayOfFindingLight)
     }
 }
 
+TEST(PathForms, AreTheSameByNormals)
+{
+    DeviceTree tree = test::litTree(device(), openRoom({1.5F, 1.25F, 0.5F}), 3);
+    test::setNormals(device(), tree, test::kObliqueNormals);
+    DeviceEnvironment sky = skyWithSun();
+    const PathOptions options = {.bounces = 3, .smooth = true, .features = true};
+    const FormPicture stages = trace({tree, sky, intoTheOpenRoom()}, PathForm::Stages, options);
+    EXPECT_TRUE(isLit(stages));
+    EXPECT_TRUE(trace({tree, sky, intoTheOpenRoom()}, PathForm::OneKernel, options) == stages);
+}
+
 TEST(PathForms, AreTheSameForAnyNumberOfBounces)
 {
     const DeviceTree tree = test::litTree(device(), openRoom({1.5F, 1.25F, 0.5F}), 3);

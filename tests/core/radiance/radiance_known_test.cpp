@@ -63,14 +63,7 @@ TEST(RadianceFurnace, AWhiteBodyCannotBeSeenByItsNormals)
     test::addBox(voxels, {2, 2, 2}, {6, 3, 6}, whiteVoxel());
     test::addBox(voxels, {2, 3, 2}, {4, 4, 6}, whiteVoxel());
     DeviceTree tree = test::litTree(device(), voxels, 3);
-    // Octahedral codes of +z, of the diagonal (1, 1, 1), of one that leans away, and none.
-    const gpu::uint normals[] = {0, 0x2AAA2AAAU, 0xD5560000U, gpu::kNoNormal};
-    std::vector<gpu::Attribute> attributes(voxels.size());
-    for (std::size_t i = 0; i < voxels.size(); ++i)
-    {
-        attributes[i] = {0xFFFFFFU, normals[i % 4]};
-    }
-    tree.voxel_attributes = device().makeBuffer<gpu::Attribute>("attributes", attributes);
+    test::setNormals(device(), tree, test::kObliqueNormals);
     DeviceEnvironment sky = constantSky({0.5F, 1.0F, 2.0F});
     FrameRenderer tracer(device().device());
     const PathPicture picture = settledPicture(tracer, tree, sky, outside(), 64, 512, 8, {}, CacheView::Smooth);
