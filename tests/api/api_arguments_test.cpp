@@ -306,6 +306,7 @@ TEST_F(ApiArguments, WhatAPictureShowsIsFinite)
     {
         tracing({.view = numbered<View>(view)}, "TraceInfo::view");
     }
+    tracing({.shading = numbered<Shading>(2)}, "TraceInfo::shading");
 }
 
 TEST_F(ApiArguments, DynamicTreesHaveNumbersThatTheyCanKeep)

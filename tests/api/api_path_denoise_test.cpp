@@ -35,7 +35,7 @@ public:
     ApiPaths::Words picture(const DeviceTree& tree, DeviceEnvironment& environment, const DVec3& eye,
                             std::uint32_t history_max)
     {
-        const PathOptions options = {.bounces = 2, .reseeds = true, .features = true};
+        const PathOptions options = {.bounces = 2, .smooth = true, .reseeds = true, .features = true};
         const ViewCamera view = ViewCamera::lookAt({eye[0], eye[1], eye[2]}, {5, 5, 5}, 0.6);
         vk::BufferOf<gpu::uint> image(device().device(), "picture",
                                       std::uint64_t{ApiPaths::kWidth} * ApiPaths::kHeight);

@@ -207,6 +207,7 @@ TEST_F(ApiPaths, WhatIsNotValidIsRefusedAndNothingIsRecorded)
         refusedInfo({.exposure = value}, "PathInfo::exposure");
     }
     refusedInfo({.bounces = 1025}, "PathInfo::bounces is 1025");
+    refusedInfo({.shading = static_cast<Shading>(2)}, "PathInfo::shading");
     refusedInfo({.focus_distance = 0}, "PathInfo::focus_distance");
     refusedInfo({.samples = 0}, "PathInfo::samples is 0");
     refusedInfo({.samples = 1025}, "PathInfo::samples is 1025");

@@ -52,13 +52,14 @@ TEST_F(ApiPaths, PicturesAreThoseOfTheEngineOfOctreesAndDags)
     ASSERT_GT(octree.info().emission_scale, 0.0F);
     Environment environment = sky();
     DeviceEnvironment engine_sky = engineSky();
-    const Words picture = enginePicture(expected, engine_sky, {.bounces = 2}, 3);
+    const Words picture = enginePicture(expected, engine_sky, {.bounces = 2, .smooth = true}, 3);
     EXPECT_EQ(newPaths(octree, environment, {.bounces = 2, .samples = 3}), picture);
     const PathInfo lens = {.bounces = 1,
                            .seed = 7,
                            .lens_radius = 0.5F,
                            .focus_distance = 30.0F,
                            .roulette = true,
+                           .shading = Shading::Faces,
                            .automatic_exposure = false,
                            .exposure = 0.75F};
     EXPECT_EQ(newPaths(octree, environment, lens),
@@ -68,10 +69,10 @@ TEST_F(ApiPaths, PicturesAreThoseOfTheEngineOfOctreesAndDags)
 
     environment.setSun({.direction = {1, 2, 0}, .irradiance = {1, 2, 3}});
     engine_sky.setSun({.direction = {1, 2, 0}, .irradiance = {1, 2, 3}});
-    EXPECT_EQ(newPaths(octree, environment), enginePicture(expected, engine_sky, {.bounces = 2}, 1));
+    EXPECT_EQ(newPaths(octree, environment), enginePicture(expected, engine_sky, {.bounces = 2, .smooth = true}, 1));
     environment.setSun({.irradiance = {0, 0, 0}});
     engine_sky.setSun({});
-    EXPECT_EQ(newPaths(octree, environment), enginePicture(expected, engine_sky, {.bounces = 2}, 1));
+    EXPECT_EQ(newPaths(octree, environment), enginePicture(expected, engine_sky, {.bounces = 2, .smooth = true}, 1));
     environment.setSun({});
 
     const Tree dag = m_host.compress(std::move(octree));
@@ -86,10 +87,10 @@ TEST_F(ApiPaths, AMapLightsAsThatOfTheEngine)
     DeviceEnvironment engine_map(device().device(), map.picture, SpotMap::kTurn, double{SpotMap::kStrength});
     Environment environment = m_host.make<Environment>(map.info());
     map.texels.clear(); // was copied
-    EXPECT_EQ(newPaths(octree, environment), enginePicture(expected, engine_map, {.bounces = 2}, 1));
+    EXPECT_EQ(newPaths(octree, environment), enginePicture(expected, engine_map, {.bounces = 2, .smooth = true}, 1));
     environment.setSun({.direction = {1, 2, 0}, .irradiance = {1, 2, 3}});
     engine_map.setSun({.direction = {1, 2, 0}, .irradiance = {1, 2, 3}});
-    EXPECT_EQ(newPaths(octree, environment), enginePicture(expected, engine_map, {.bounces = 2}, 1));
+    EXPECT_EQ(newPaths(octree, environment), enginePicture(expected, engine_map, {.bounces = 2, .smooth = true}, 1));
 }
 
 TEST_F(ApiPaths, EveryKindOfImageGetsTheTexelsOfTheEngine)
@@ -106,7 +107,8 @@ TEST_F(ApiPaths, EveryKindOfImageGetsTheTexelsOfTheEngine)
         test::TargetImage image(m_host.device, format, kWidth, kHeight);
         const auto trace = [&](Recorder& recorder, const ImageTarget& target)
         { tracer.tracePaths(recorder, octree, environment, test::apiCamera(), kFewBounces, target); };
-        EXPECT_EQ(m_host.picture(image, trace), enginePicture(expected, engine_sky, {.bounces = 2}, 1, {}, texels))
+        EXPECT_EQ(m_host.picture(image, trace),
+                  enginePicture(expected, engine_sky, {.bounces = 2, .smooth = true}, 1, {}, texels))
             << format;
     }
 }

@@ -240,6 +240,7 @@ TEST_F(ApiRadianceCache, PicturesAreThoseOfTheEngine)
     EXPECT_EQ(trace(beside, {.automatic_exposure = false, .exposure = 0.5F}),
               engine.picture(expected, {21, 17.5, 25}, width, height, {false, 0.5F}));
     expectUsage([&] { trace(test::apiCamera(), {.exposure = -1}); }, "CachedPictureInfo::exposure");
+    expectUsage([&] { trace(test::apiCamera(), {.shading = static_cast<Shading>(2)}); }, "CachedPictureInfo::shading");
     const Tree other = octree(4);
     expectUsage([&] { traceOf(other, test::apiCamera(), {}); }, "RadianceCache::update() comes first");
     m_host.lostFrame([&](Recorder& recorder) { light.update(recorder, tree, environment, test::apiCamera()); });

@@ -33,8 +33,8 @@ TEST_F(CliCache, EachOptionChangesThePicture)
     const std::string plain = picture("--settle 12");
     EXPECT_EQ(picture("--settle 12"), plain);
     EXPECT_TRUE(picture("--settle 0") != plain);
-    for (const std::string option : {"--seed 1", "--rays 5", "--exposure 3", "--sun 1,1,1", "--environment sky.exr",
-                                     "--environment none --sun 1,2,3"})
+    for (const std::string option : {"--seed 1", "--rays 5", "--exposure 3", "--sun 1,1,1", "--shading faces",
+                                     "--environment sky.exr", "--environment none --sun 1,2,3"})
     {
         EXPECT_TRUE(picture("--settle 12 " + option) != plain) << option;
     }

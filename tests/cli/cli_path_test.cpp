@@ -58,9 +58,9 @@ TEST_F(CliPath, EachOptionChangesThePicture)
 {
     const std::string plain = picture("");
     EXPECT_EQ(picture(""), plain);
-    for (const char* options :
-         {"--seed 1", "--bounces 0", "--exposure 3", "--aperture 0.2 --focus 3", "--sun 1,1,1", "--environment sky.exr",
-          "--environment none", "--structure svo --environment sky.hdr --environment-strength 2"})
+    for (const char* options : {"--seed 1", "--bounces 0", "--exposure 3", "--aperture 0.2 --focus 3", "--sun 1,1,1",
+                                "--shading faces", "--environment sky.exr", "--environment none",
+                                "--structure svo --environment sky.hdr --environment-strength 2"})
     {
         EXPECT_NE(picture(options), plain) << options;
     }
