@@ -1,7 +1,7 @@
 #version 460
 // SPDX-License-Identifier: MIT
 // Adds the light that the camera sees reflected to each pixel: what is cached at its hit, between four faces, or with
-// kSmooth on up to three sides of the voxel. Pixels that see a lamp, or nothing, are listed.
+// kSmooth around it on up to three sides of the voxel. Pixels that see a lamp, or nothing, are listed.
 #extension GL_GOOGLE_include_directive : require
 #include "radiance/radiance.h"
 
@@ -26,9 +26,48 @@ layout(local_size_x = kRadianceGroup) in;
 // A weight of the face that is hit which stays where the voxel's normal points along other axes: that face has light.
 const float kHitFaceWeight = 0.001;
 
+// Quadratic B-splines at these distances from the middle, within 1.5.
+vec2 splineShare(vec2 distance)
+{
+    distance = abs(distance);
+    vec2 far = 1.5 - distance;
+    return mix(0.75 - distance * distance, 0.5 * far * far, greaterThan(distance, vec2(0.5)));
+}
+
+// Faces count by their samples, up to so many: those of few are noisier, such as sides that the camera does not see.
+const float kCountedSamples = 64.0;
+
+// The light that a face keeps, times what it counts, which is w.
+vec4 countedLight(uvec3 cell, uint normal)
+{
+    CachedFace face;
+    bool found = findFace(cell, normal, 0u, face) != kNoFace;
+    float counts = found ? min(float(cachedWeight(face.light)), kCountedSamples) / kCountedSamples : 0.0;
+    return counts * vec4(found ? cachedRadiance(face.light) : vec3(0.0), 1.0);
+}
+
+// Likewise, the light at a place on a face by those nine faces of its plane that are around the cell. Shares are those
+// of a quadratic B-spline, which is smooth where light between four faces has creases, and is made of more faces, so
+// that less noise is left of each.
+vec4 lightAround(uvec3 cell, uint normal, vec3 place)
+{
+    vec3 offset = clamp(place, 0.0, 1.0) - 0.5;
+    uint axis = normal % 3u;
+    vec2 across = axis == 0u ? offset.yz : axis == 1u ? offset.xz : offset.xy;
+    vec4 sum = vec4(0.0);
+    for (int y = -1; y <= 1; ++y)
+        for (int x = -1; x <= 1; ++x)
+        {
+            vec2 share = splineShare(across - vec2(x, y));
+            uvec3 near = uvec3(ivec3(cell) + stepInPlane(normal, ivec2(x, y))) & kHitCoordinateMask;
+            sum += share.x * share.y * countedLight(near, normal);
+        }
+    return sum;
+}
+
 // The light at a place of a voxel by its normal: a mean of its faces that the normal points to, weighted by the squares
 // of the normal's components, so that a slope of steps looks like a plane. As a mean of what is cached it makes no
-// light. The face that weighs most is mixed with its neighbours. w: 0 where none has light.
+// light. The face that weighs most is mixed with its neighbours. w: of all faces; 0 where none has light.
 vec4 lightByNormal(uvec3 cell, uint hit_normal, vec3 place, vec3 normal)
 {
     vec3 weights = normal * normal;
@@ -42,19 +81,7 @@ vec4 lightByNormal(uvec3 cell, uint hit_normal, vec3 place, vec3 normal)
         float along = axis == 0u ? normal.x : axis == 1u ? normal.y : normal.z;
         float weight = axis == 0u ? weights.x : axis == 1u ? weights.y : weights.z;
         uint side = axis == hit_axis ? hit_normal : axis + (along < 0.0 ? 3u : 0u);
-        vec4 light;
-        if (k == 0u)
-        {
-            light = lightBetweenFaces(cell, side, place, 0u);
-            light /= max(light.w, 1e-6);
-        }
-        else
-        {
-            CachedFace face;
-            bool found = findFace(cell, side, 0u, face) != kNoFace && cachedWeight(face.light) != 0u;
-            light = found ? vec4(cachedRadiance(face.light), 1.0) : vec4(0.0);
-        }
-        sum += weight * light;
+        sum += weight * (k == 0u ? lightAround(cell, side, place) : countedLight(cell, side));
     }
     return sum;
 }
