@@ -69,6 +69,11 @@ DeviceEnvironment readEnvironment(vk::Device& device, const EnvironmentOptions& 
     HdrImage map = readMap(*asked.map);
     limit(map, asked.strength);
     DeviceEnvironment environment(device, map, asked.turn * std::numbers::pi / 180.0, double{asked.strength});
+    if (asked.background_blur > 0.0F)
+    {
+        environment.setBackground(
+            device, blurredMap(map.width, map.height, map.texels, glm::radians(double{asked.background_blur})));
+    }
     if (to_sun)
     {
         environment.setSun(sun);

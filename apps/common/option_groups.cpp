@@ -145,6 +145,8 @@ void addVoxelOptions(CLI::App& app, VoxelOptions& options, const std::string& al
              "the grid is the cube from corner 0 on, as long as the box's longest edge");
     addValue(app, "--grid", options.grid_position, parseGridPosition, "x,y,z,SIZE",
              "the grid has exactly this origin and voxel size, as a JSON report states them");
+    app.add_flag("--ground", options.ground,
+                 "puts a grey disc below the scene; the grid becomes twice as wide, with voxels of the same size");
     app.final_callback(
         [&options]
         {

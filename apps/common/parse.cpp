@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "common/parse.h"
 
+#include "core/scene/sky.h"
 #include "io/image/image_io.h"
 #include "zvo/error.h"
 
@@ -89,6 +90,27 @@ double parseDegrees(std::string_view option, std::string_view text)
 {
     return parseNumber<double>(
         option, text, [](double) { return true; }, "a number of degrees");
+}
+
+float parseBlur(std::string_view option, std::string_view text)
+{
+    return parseNumber<float>(
+        option, text, [](float value) { return value > 0.0F && value <= 90.0F; }, "degrees above 0 and at most 90");
+}
+
+glm::dvec3 parseTimeOfDay(std::string_view option, std::string_view text)
+{
+    constexpr std::uint32_t kHours = 24;
+    constexpr std::uint32_t kMinutes = 60;
+    const std::size_t colon = std::min(text.find(':'), text.size());
+    const std::uint32_t hour = number<std::uint32_t>(text.substr(0, colon)).value_or(kHours);
+    const std::uint32_t minute =
+        number<std::uint32_t>(text.substr(std::min(colon + 1, text.size()))).value_or(kMinutes);
+    if (hour >= kHours || minute >= kMinutes)
+    {
+        throw Error(ErrorCode::Usage, fmt::format("{} {}: expected a time from 0:00 to 23:59", option, text));
+    }
+    return sunAtHour(hour + static_cast<double>(minute) / kMinutes);
 }
 
 std::optional<std::vector<float>> tryParseFloats(std::string_view text)

@@ -41,6 +41,12 @@ double parseSeconds(std::string_view option, std::string_view text);
 /// A finite number.
 double parseDegrees(std::string_view option, std::string_view text);
 
+/// An angle of blur: degrees above 0 and at most 90.
+float parseBlur(std::string_view option, std::string_view text);
+
+/// A time of day, "6:30", as the direction to the sun (sunAtHour()).
+glm::dvec3 parseTimeOfDay(std::string_view option, std::string_view text);
+
 /// Three finite numbers with commas between them, not all 0.
 glm::dvec3 parseDirection(std::string_view option, std::string_view text);
 

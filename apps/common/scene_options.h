@@ -50,6 +50,7 @@ struct VoxelOptions
     AttributeFormat attributes = AttributeFormat::Bytes8; // of the voxels; packed formats only for build
     std::optional<Bounds> bounds;                         // the cube from this box's minimum corner on
     std::optional<GridPosition> grid_position;            // exactly this grid; neither: the cube around the scene
+    bool ground = false; // a disc below the scene, in a cube that is twice as wide unless the grid is given
 
     [[nodiscard]] bool hasAttributes() const { return attributes != AttributeFormat::None; }
 };
@@ -60,6 +61,7 @@ struct EnvironmentOptions
     std::optional<std::filesystem::path> map; // or "none": no light; not given: the simple sky
     double turn = 0.0;                        // degrees, counterclockwise from above
     float strength = 1.0F;
+    float background_blur = 0.0F; // degrees by which the camera sees the map blurred
 };
 
 /// The outputs of a command. "-" is standard output.

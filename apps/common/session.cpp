@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "common/session.h"
 
+#include "common/ground.h"
 #include "common/names.h"
 #include "common/progress.h"
 #include "common/report.h"
@@ -200,7 +201,12 @@ Grid placeGrid(const VoxelOptions& options, const AnimatedScene& animated, const
         return {options.grid_position->origin, options.grid_position->voxel_size, depth};
     }
     const std::optional<Bounds>& wanted = options.bounds ? options.bounds : animated.grid_bounds;
-    return wanted ? Grid::withCorner(*wanted, depth) : Grid::around(bounds, depth);
+    if (wanted)
+    {
+        return Grid::withCorner(*wanted, depth);
+    }
+    const Grid grid = Grid::around(bounds, depth);
+    return options.ground ? gridWithGround(grid, bounds) : grid;
 }
 
 bool warnOfDropped(std::uint64_t voxel_count, const std::map<std::string, std::uint64_t>& dropped)

@@ -56,6 +56,7 @@ void checkTreeOptions(const RenderOptions& options)
         {"--attributes", voxels.attributes != plain.attributes},
         {"--bounds", voxels.bounds.has_value()},
         {"--grid", voxels.grid_position.has_value()},
+        {"--ground", voxels.ground},
         {"--structure", options.structure.has_value()},
         {"--rebuild", options.rebuild},
     };
@@ -91,6 +92,7 @@ void checkIntegratorOptions(const RenderOptions& options)
         {"--environment", environment.map.has_value(), of_light},
         {"--environment-turn", environment.turn != plain.environment.turn, of_light},
         {"--environment-strength", environment.strength != plain.environment.strength, of_light},
+        {"--background-blur", environment.background_blur != plain.environment.background_blur, of_light},
         {"--denoise", frame.denoise, of_paths},
         {"--aov", options.aovs, of_paths},
         {"--path-form", frame.path_form.has_value(), of_paths},
@@ -121,6 +123,10 @@ void checkIntegratorOptions(const RenderOptions& options)
     if (environment.strength != plain.environment.strength && !has_map)
     {
         throw Error(ErrorCode::Usage, "--environment-strength needs a map: --environment FILE");
+    }
+    if (environment.background_blur != plain.environment.background_blur && !has_map)
+    {
+        throw Error(ErrorCode::Usage, "--background-blur needs a map: --environment FILE");
     }
     if (options.focus && frame.path.lens_radius == plain.frame.path.lens_radius)
     {

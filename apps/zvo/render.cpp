@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "commands.h"
 
+#include "common/ground.h"
 #include "common/output.h"
 #include "common/progress.h"
 #include "common/report.h"
@@ -310,6 +311,10 @@ void render(const RenderOptions& options)
     const Grid grid = placeGrid(options.voxels, animated, bounds);
     const Bounds subject = subjectOf(animated, bounds, grid);
     const Cameras cameras = chooseCameras(options, animated, subject);
+    if (options.voxels.ground)
+    {
+        addGround(animated, bounds, grid);
+    }
     pictures.setFrameRate(animated.frames_per_second);
 
     RenderRun run(options, camera_work, pictures, progress);

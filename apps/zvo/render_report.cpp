@@ -183,6 +183,7 @@ Json RenderReport::samplesJson() const
             {"environment", environment.map ? Json(environment.map->string()) : Json(nullptr)},
             {"environment_turn", environment.turn},
             {"environment_strength", environment.strength},
+            {"background_blur", environment.background_blur},
             {"time_limit", m_options.time_limit ? Json(*m_options.time_limit) : Json(nullptr)},
             {"pictures", pictures}};
 }

@@ -133,6 +133,8 @@ void addPathOptions(CLI::App& render, RenderOptions& options)
              "turns the map about the vertical, counterclockwise from above (default 0)");
     addValue(render, "--environment-strength", options.environment.strength, parsePositive, "FACTOR",
              "factor for the map's light (default 1)");
+    addValue(render, "--background-blur", options.environment.background_blur, parseBlur, "DEGREES",
+             "blurs what the camera sees of the map, above 0 to 90; its light stays (default: sharp)");
     render.add_flag("--denoise", options.frame.denoise,
                     "smooth the noise of few paths, but not edges; in sequences with the help of earlier pictures");
     render.add_flag("--aov", options.aovs,
@@ -170,6 +172,11 @@ void addOptions(CLI::App& render, RenderOptions& options)
         render, "--occlusion", options.frame.trace.occlusion_rays, integerIn(0, kOcclusionRaysMax), "RAYS",
         fmt::format("rays a sample that find how much of the sky it sees, 0 to {} (default 8)", kOcclusionRaysMax));
     addValue(render, "--sun", options.to_sun, parseDirection, "x,y,z", "direction to the sun (default -0.6,0.75,0.45)");
+    addValue(
+        render, "--time-of-day", options.to_sun, parseTimeOfDay, "HH:MM",
+        "the sun as at this time, 45 degrees north at an equinox: it rises at 6:00 in the east (+x), and stands in "
+        "the south (+z) at 12:00")
+        ->excludes("--sun");
     addPathOptions(render, options);
     addValue(
         render, "--exposure", options.frame.exposure,

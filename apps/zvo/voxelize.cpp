@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // zvo voxelize and zvo build: the commands that make a file of a scene's voxels.
 #include "commands.h"
+#include "common/ground.h"
 #include "common/output.h"
 #include "common/progress.h"
 #include "common/report.h"
@@ -44,7 +45,12 @@ public:
             loadAnimatedSceneWithWarnings(voxels, voxels.time.has_value(), ImageDecoding::WhenUploaded);
         checkPaths(outputs, animated.files);
         warnOfMergeRule(animated);
-        grid = placeGrid(voxels, animated, boundsOverTime(animated));
+        const Bounds bounds = boundsOverTime(animated);
+        grid = placeGrid(voxels, animated, bounds);
+        if (voxels.ground)
+        {
+            addGround(animated, bounds, grid);
+        }
         const double seconds = loopedTime(animated, voxels.time.value_or(0.0));
         const Scene still = sceneAt(std::move(animated), seconds);
         triangle_count = still.triangleCount();

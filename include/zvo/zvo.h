@@ -471,6 +471,9 @@ typedef struct ZvoSunInfo
 
 #define ZVO_SUN_INFO_INIT ZVO_STRUCT_INIT(ZvoSunInfo, {-0.6, 0.75, 0.45}, {2.2F, 2.2F * 0.93, 2.2F * 0.82})
 
+/// zvo::sunlight().
+ZVO_C_API ZvoResult zvoSunlight(const double direction[3], ZvoSunInfo* sun);
+
 /// As zvo::EnvironmentMapInfo.
 typedef struct ZvoEnvironmentMapInfo
 {
@@ -480,7 +483,7 @@ typedef struct ZvoEnvironmentMapInfo
     uint32_t height;
     double turn;
     float strength;
-    uint32_t reserved;
+    float background_blur;
 } ZvoEnvironmentMapInfo;
 
 #define ZVO_ENVIRONMENT_MAP_INFO_INIT ZVO_STRUCT_INIT(ZvoEnvironmentMapInfo, NULL, 0, 0, 0, 1, 0)

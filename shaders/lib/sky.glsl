@@ -3,24 +3,37 @@
 #ifndef ZVO_SHADERS_LIB_SKY_GLSL
 #define ZVO_SHADERS_LIB_SKY_GLSL
 
-const vec3 kSunColor = vec3(1.0, 0.93, 0.82);
-const float kSunDiscCosine = 0.9995; // 1.8 degrees from the middle to the edge
+#include "shared/sky.h"
 
-// Radiance from direction (length 1), without the sun: blue above, a bright horizon, a calm floor of haze below.
-vec3 skyRadiance(vec3 direction)
+const float kSunDiscCosine = 0.9995; // 1.8 degrees from the middle to the edge
+const float kForward = 0.7;          // of the haze around the sun: the mean cosine of the angles by which it scatters
+const float kGlowAbove = 0.2;        // part of the glow that reaches up to the zenith
+const float kHazeDepth = 14.0;       // how fast the ground comes out of the haze below the horizon
+const float kHaze = 0.65;            // part of the ground's radiance that is haze at the horizon
+
+// The light that haze scatters by an angle, over that straight ahead (L. Henyey, J. Greenstein, Diffuse Radiation in
+// the Galaxy, 1941).
+float glowOf(float cosine)
 {
-    float up = clamp(direction.y, 0.0, 1.0);
-    float down = clamp(-direction.y, 0.0, 1.0);
-    vec3 horizon = vec3(0.72, 0.80, 0.90);
-    vec3 above = mix(horizon, vec3(0.16, 0.34, 0.70), 1.0 - (1.0 - up) * (1.0 - up));
-    vec3 below = mix(horizon, vec3(0.20, 0.22, 0.26), 1.0 - (1.0 - down) * (1.0 - down));
+    float part = (1.0 - kForward) * (1.0 - kForward) / (1.0 + kForward * kForward - 2.0 * kForward * cosine);
+    return part * sqrt(part);
+}
+
+// Radiance from direction (length 1), without the sun: deep above, bright at the horizon and around the sun. Below the
+// horizon is ground, in haze far away.
+vec3 skyRadiance(Sky sky, vec3 direction)
+{
+    float away = 1.0 - abs(direction.y); // 1 at the horizon
+    vec3 glow = glowOf(dot(direction, sky.to_sun)) * sky.glow;
+    vec3 above = mix(sky.zenith, sky.horizon, away * away) + mix(kGlowAbove, 1.0, away * away * away * away) * glow;
+    vec3 below = mix(sky.ground, sky.horizon + glow, kHaze * exp(kHazeDepth * min(direction.y, 0.0)));
     return direction.y > 0.0 ? above : below;
 }
 
 // Irradiance / pi that a surface with this normal (length 1) receives from the sky, without the sun.
-vec3 skyAmbient(vec3 normal)
+vec3 skyAmbient(Sky sky, vec3 normal)
 {
-    return mix(vec3(0.17, 0.16, 0.15), vec3(0.40, 0.48, 0.62), 0.5 + 0.5 * normal.y);
+    return mix(sky.below, sky.above, 0.5 + 0.5 * normal.y);
 }
 
 float sunDisc(vec3 direction, vec3 to_sun)

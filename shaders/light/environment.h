@@ -20,6 +20,7 @@
 #define ZVO_SHADERS_LIGHT_ENVIRONMENT_H
 
 #include "light/outside.h"
+#include "shared/sky.h"
 
 GPU_NAMESPACE_BEGIN
 
@@ -73,6 +74,7 @@ GPU_KERNEL(light, environment_gives, EnvironmentGives, EnvironmentGivesParams, G
 struct SkyTexelsParams // push constants of light/sky_texels: a thread a texel
 {
     GPU_PTR(vec3) texels; // [width * height]
+    Sky sky;
     uint width;
     uint height;
 };

@@ -23,23 +23,34 @@ vec2 mapCoordinates(vec3 direction, vec2 turn)
     return vec2(fract(angle / (2.0 * kPi)), acos(clamp(direction.y, -1.0, 1.0)) / kPi);
 }
 
-// Radiance of the map from a direction (length 1).
-vec3 mapRadiance(Environment_ConstPtr environment, vec3 direction)
+// Radiance of the map from a direction (length 1): as the camera sees it, which may be blurred, or as it gives light.
+vec3 mapRadiance(Environment_ConstPtr environment, vec3 direction, bool by_camera)
 {
     EnvironmentMap map = environment.data[0].map;
-    vec2 size = vec2(map.width, map.height);
-    vec2 place = mapCoordinates(direction, map.turn) * size - 0.5;
+    vec3_ConstPtr texels = environment.data[0].texels;
+    uvec2 size = uvec2(map.width, map.height);
+    if (by_camera)
+    {
+        texels = environment.data[0].background;
+        size = uvec2(environment.data[0].background_width, environment.data[0].background_height);
+    }
+    vec2 place = mapCoordinates(direction, map.turn) * vec2(size) - 0.5;
     vec2 low = floor(place);
     vec2 part = place - low;
     ivec2 corner = ivec2(low);
-    uint left = uint(corner.x < 0 ? corner.x + int(map.width) : corner.x) % map.width;
-    uint right = (left + 1u) % map.width;
-    uint above = uint(clamp(corner.y, 0, int(map.height) - 1)) * map.width;
-    uint below = uint(clamp(corner.y + 1, 0, int(map.height) - 1)) * map.width;
-    vec3_ConstPtr texels = environment.data[0].texels;
+    uint left = uint(corner.x < 0 ? corner.x + int(size.x) : corner.x) % size.x;
+    uint right = (left + 1u) % size.x;
+    uint above = uint(clamp(corner.y, 0, int(size.y) - 1)) * size.x;
+    uint below = uint(clamp(corner.y + 1, 0, int(size.y) - 1)) * size.x;
     return environment.data[0].strength *
            mix(mix(texels.data[above + left], texels.data[above + right], part.x),
                mix(texels.data[below + left], texels.data[below + right], part.x), part.y);
+}
+
+// The light of the map from a direction (length 1).
+vec3 mapRadiance(Environment_ConstPtr environment, vec3 direction)
+{
+    return mapRadiance(environment, direction, false);
 }
 
 // The irradiance over pi that comes from the sun's whole disc, above a surface with this normal (length 1).

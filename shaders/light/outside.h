@@ -33,9 +33,12 @@ struct EnvironmentMap
 struct Environment
 {
     GPU_CONST_PTR(vec3) texels;     // [width * height]
+    GPU_CONST_PTR(vec3) background; // [background_width * background_height] what the camera sees of the map
     GPU_CONST_PTR(AliasCell) cells; // [kNormals][cells]
     GPU_CONST_PTR(vec2) gives;      // [kNormals] luminance over which a face gets of the map, and of the sun, at most
     EnvironmentMap map;
+    uint background_width;
+    uint background_height;
     float strength;   // of the map: its texels count times this
     vec3 to_sun;      // to the middle of the sun's disc, length 1
     vec3 sun;         // radiance of the disc

@@ -34,7 +34,8 @@ vec3 lightOfMiss(PathState state, Ray ray)
     float map_density = 0.0;
     if (kSampling == kSampleBoth)
         map_density = state.kinds.x * densityOfMap(state.normal, direction);
-    vec3 light = mapRadiance(params.environment, direction) * chanceWeight(state, map_density);
+    bool by_camera = state.density == 0.0;
+    vec3 light = mapRadiance(params.environment, direction, by_camera) * chanceWeight(state, map_density);
     if (meetsSun(params.environment, direction))
         light += params.environment.data[0].sun * chanceWeight(state, state.kinds.y * sunDensity(params.environment));
     return state.throughput * light;

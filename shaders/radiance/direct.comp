@@ -24,7 +24,7 @@ layout(local_size_x = kRadianceGroup) in;
 vec3 outside(vec3 direction)
 {
     vec3 sun = meetsSun(params.environment, direction) ? params.environment.data[0].sun : vec3(0.0);
-    return mapRadiance(params.environment, direction) + sun;
+    return mapRadiance(params.environment, direction, true) + sun;
 }
 
 void main()

@@ -3,6 +3,7 @@
 #ifndef ZVO_SHADERS_TRACE_LIGHT_H
 #define ZVO_SHADERS_TRACE_LIGHT_H
 
+#include "shared/sky.h"
 #include "trace/trace.h"
 
 GPU_ENUM(TexelFormat) // kTexelRgba8 and so on
@@ -99,11 +100,11 @@ GPU_KERNEL(trace, occlusion, Occlusion, OcclusionParams, TRACE_OCCLUSION_CONSTAN
 
 struct SkyParams // push constants of trace/sky: one thread kSkyRows pixels of a column
 {
-    GPU_PTR(uint) image; // [width * height] texels of one word or two, as kTexels says
-    vec3 forward;        // of the camera
+    GPU_CONST_PTR(Sky) sky; // [1]
+    GPU_PTR(uint) image;    // [width * height] texels of one word or two, as kTexels says
+    vec3 forward;           // of the camera
     vec3 half_pixel_x;
     vec3 half_pixel_y;
-    vec3 to_sun; // length 1
     uint width;
     uint height;
     float sun; // strength
@@ -124,13 +125,14 @@ struct ShadeParams // push constants of trace/shade
     GPU_CONST_PTR(Attribute) node_attributes;
     GPU_CONST_PTR(uvec2) emission_words;
     GPU_CONST_PTR(uint) emission;
-    GPU_PTR(uint) image; // as in SkyParams
+    GPU_CONST_PTR(Sky) sky; // [1]
+    GPU_PTR(uint) image;    // as in SkyParams
     vec3 forward;
     vec3 half_pixel_x;
     vec3 half_pixel_y;
-    vec3 sun; // towards it, as long as it is strong
     uint width;
     uint height;
+    float sun; // strength
     float emission_scale;
     float exposure;
 };

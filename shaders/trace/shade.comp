@@ -30,9 +30,10 @@ vec3 emissionAt(uint voxel)
 
 vec3 lit(Surface surface, vec3 emission, uint light)
 {
-    float sun = max(dot(surface.normal, params.sun), 0.0) * float(light & kLightSun) / 255.0;
+    Sky outside = params.sky.data[0];
+    float sun = params.sun * max(dot(surface.normal, outside.to_sun), 0.0) * float(light & kLightSun) / 255.0;
     float sky = mix(kBounced, 1.0, float(light >> kLightSkyShift) / 255.0);
-    return surface.albedo * (sun * kSunColor + sky * skyAmbient(surface.normal)) + emission;
+    return surface.albedo * (sun * outside.sun + sky * skyAmbient(outside, surface.normal)) + emission;
 }
 
 void main()

@@ -22,7 +22,8 @@ vec3 skyColor(uvec2 pixel, uvec2 size)
     if (!kOrthographic)
         direction += rayOffset(pixelOffset(pixel, size), params.half_pixel_x, params.half_pixel_y);
     direction = normalize(direction);
-    vec3 radiance = skyRadiance(direction) + kSunDisc * params.sun * sunDisc(direction, params.to_sun) * kSunColor;
+    Sky sky = params.sky.data[0];
+    vec3 radiance = skyRadiance(sky, direction) + kSunDisc * params.sun * sunDisc(direction, sky.to_sun) * sky.sun;
     return developTexel(kTexels, radiance, params.exposure, pixel);
 }
 

@@ -21,6 +21,18 @@ ZvoResult zvoEnvironmentCreate(ZvoRecorder* recorder, const ZvoEnvironmentMapInf
                    });
 }
 
+ZvoResult zvoSunlight(const double direction[3], ZvoSunInfo* sun)
+{
+    return guarded(__func__,
+                   [&]
+                   {
+                       static_cast<void>(at(sun, "sun")); // before it is known whether the direction is one
+                       const double* const from = &at(direction, "direction");
+                       const SunInfo made = sunlight({from[0], from[1], from[2]});
+                       write(sun, "sun", made);
+                   });
+}
+
 ZvoResult zvoEnvironmentSetSun(ZvoEnvironment* environment, const ZvoSunInfo* sun)
 {
     return guarded(__func__, [&] { objectOf(environment, "environment").setSun(read(sun, "sun")); });

@@ -97,7 +97,7 @@ ZVO_C_STRUCT(ZvoUpdateStats, UpdateStats, ZVO_UPDATE_STATS_INIT,
              (it.dropped_nonfinite, it.dropped_out_of_range, it.dropped_outside, it.dropped_zero_area));
 ZVO_C_STRUCT(ZvoSunInfo, SunInfo, ZVO_SUN_INFO_INIT, (it.direction, it.irradiance), ());
 ZVO_C_STRUCT(ZvoEnvironmentMapInfo, EnvironmentMapInfo, ZVO_ENVIRONMENT_MAP_INFO_INIT,
-             (it.width, it.height, it.turn, it.strength), (it.texels));
+             (it.width, it.height, it.turn, it.strength, it.background_blur), (it.texels));
 ZVO_C_STRUCT(ZvoCameraInfo, CameraInfo, ZVO_CAMERA_INFO_INIT,
              (it.position, it.forward, it.up, it.vertical_fov, it.half_height, it.orthographic), ());
 ZVO_C_STRUCT(ZvoTraceInfo, TraceInfo, ZVO_TRACE_INFO_INIT,

@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 
 namespace zvo
 {
@@ -249,6 +250,11 @@ const EnvironmentMapInfo& checked(const EnvironmentMapInfo& map)
         throw Error(ErrorCode::Usage, fmt::format("EnvironmentMapInfo::turn is {}: it must be finite", map.turn));
     }
     checkedAmount(map.strength, "EnvironmentMapInfo::strength");
+    if (!(map.background_blur >= 0.0F && map.background_blur <= std::numbers::pi_v<float>))
+    {
+        throw Error(ErrorCode::Usage, fmt::format("EnvironmentMapInfo::background_blur is {}: it must be from 0 to pi",
+                                                  map.background_blur));
+    }
     for (std::size_t i = 0; i < map.texels.size(); ++i)
     {
         const Vec3& texel = map.texels[i];

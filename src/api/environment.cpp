@@ -4,6 +4,7 @@
 #include "api/checked.h"
 #include "api/convert.h"
 #include "api/environment_impl.h"
+#include "core/path/daylight.h"
 
 namespace zvo
 {
@@ -16,7 +17,12 @@ static_assert(sizeof(Vec3) == sizeof(glm::vec3) && alignof(Vec3) == alignof(glm:
 DeviceEnvironment uploaded(vk::Uploader& uploads, const EnvironmentMapInfo& map)
 {
     const std::span texels(reinterpret_cast<const glm::vec3*>(map.texels.data()), map.texels.size());
-    return {uploads, map.width, map.height, texels, map.turn, double{map.strength}};
+    DeviceEnvironment light(uploads, map.width, map.height, texels, map.turn, double{map.strength});
+    if (map.background_blur > 0.0F)
+    {
+        light.setBackground(uploads.device(), blurredMap(map.width, map.height, texels, double{map.background_blur}));
+    }
+    return light;
 }
 
 Sun sunOf(const SunInfo& info)
@@ -48,6 +54,13 @@ Environment::Environment(Recorder& recorder, const EnvironmentMapInfo& map)
                   uploads.flush();
                   m_impl->light.prepare(impl.graph);
               });
+}
+
+SunInfo sunlight(const DVec3& direction)
+{
+    const SunInfo asked = {.direction = direction};
+    const Sun sun = daylight(toGlm(checked(asked).direction));
+    return {direction, {sun.irradiance.x, sun.irradiance.y, sun.irradiance.z}};
 }
 
 Environment::~Environment() = default;

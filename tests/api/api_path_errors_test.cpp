@@ -263,6 +263,7 @@ TEST_F(ApiPaths, LightThatThereCannotBeIsRefused)
     refused([](Info& info, Texels&) { info.width = info.height = 16384; }, "not 16384 x 16384");
     refused([](Info& info, Texels&) { info.height = 7; }, "has 128 elements, not 16 x 7");
     refused([&](Info& info, Texels&) { info.turn = nan; }, "EnvironmentMapInfo::turn");
+    refused([](Info& info, Texels&) { info.background_blur = -0.1F; }, "EnvironmentMapInfo::background_blur");
     refused([](Info& info, Texels&) { info.strength = -1; }, "EnvironmentMapInfo::strength");
     refused([&](Info& info, Texels&) { info.strength = static_cast<float>(infinity); }, "EnvironmentMapInfo::strength");
     for (const double value : {-1.0, nan, infinity, 3e38}) // times strength, the last one is infinite

@@ -70,8 +70,10 @@ TEST_F(ApiPaths, PicturesAreThoseOfTheEngineOfOctreesAndDags)
     environment.setSun({.direction = {1, 2, 0}, .irradiance = {1, 2, 3}});
     engine_sky.setSun({.direction = {1, 2, 0}, .irradiance = {1, 2, 3}});
     EXPECT_EQ(newPaths(octree, environment), enginePicture(expected, engine_sky, {.bounces = 2, .smooth = true}, 1));
+    EXPECT_NEAR(sunlight({-0.6, 0.75, 0.45}).irradiance[2], SunInfo().irradiance[2], 1e-6);
+    EXPECT_LT(sunlight({-0.6, 0.05, 0.45}).irradiance[2], 0.1 * SunInfo().irradiance[2]);
     environment.setSun({.irradiance = {0, 0, 0}});
-    engine_sky.setSun({});
+    engine_sky.setSun({.direction = {-0.6, 0.75, 0.45}});
     EXPECT_EQ(newPaths(octree, environment), enginePicture(expected, engine_sky, {.bounces = 2, .smooth = true}, 1));
     environment.setSun({});
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "api_paths.h"
 
+#include "core/path/daylight.h"
 #include "core/trace/trace.h"
 #include "support/engine_device.h"
 #include "support/failing_vulkan.h"
@@ -28,7 +29,7 @@ DeviceEnvironment engineSky()
 {
     DeviceEnvironment sky(device().device());
     const TraceOptions plain;
-    sky.setSun({.direction = plain.to_sun, .irradiance = double{plain.sun} * kSunColor}); // as `zvo render`
+    sky.setSun(daylight(plain.to_sun)); // as `zvo render`
     return sky;
 }
 

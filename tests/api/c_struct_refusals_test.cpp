@@ -196,6 +196,7 @@ TEST(CStructs, PointersThatAreNullAreRefused)
     REFUSES_NULLS(zvoTracerCreate);
     REFUSES_NULLS(zvoTracerSampleCount);
     REFUSES_NULLS(zvoTracerForgetSamples);
+    REFUSES_NULLS(zvoSunlight);
     REFUSES_NULLS(zvoEnvironmentSetSun);
     REFUSES_NULLS(zvoRadianceCacheCreate);
     REFUSES_NULLS(zvoRadianceCacheAddress);

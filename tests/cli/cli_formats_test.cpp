@@ -1,11 +1,16 @@
 // SPDX-License-Identifier: MIT
 // The same mesh in every format gives the same voxels, bit for bit.
 #include "cli/cli_folder.h"
+#include "core/base/morton.h"
 #include "support/mesh_files.h"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cstring>
 #include <filesystem>
+#include <numbers>
+#include <vector>
 
 namespace zvo::test
 {
@@ -32,6 +37,8 @@ std::vector<std::uint8_t> asGlb(const FileMesh& mesh)
     return builder.glb();
 }
 
+constexpr int kResolution = 64;
+
 class CliFormats : public CliFolder
 {
 protected:
@@ -39,7 +46,7 @@ protected:
     [[nodiscard]] std::string codesOf(const std::string& arguments) const
     {
         std::filesystem::remove(m_dir.path() / "out.morton");
-        run("voxelize -o out.morton --resolution 64 " + arguments);
+        run("voxelize -o out.morton --resolution " + std::to_string(kResolution) + ' ' + arguments);
         return file("out.morton");
     }
 };
@@ -93,6 +100,25 @@ TEST_F(CliFormats, RenderTakesSeveralFormatsAndUp)
     const std::string told =
         run("render cube.glb mesh.obj -o a.png --resolution 32 --size 32x32 --up -y --scale 2").err;
     EXPECT_TRUE(contains(told, "30 triangles")) << told;
+}
+
+// The layer of voxels below the scene, whose voxels stay as they are.
+TEST_F(CliFormats, GroundIsADiscBelowTheScene)
+{
+    const auto voxelsOf = [&](const std::string& options)
+    {
+        const std::string codes = codesOf("cube.glb" + options);
+        std::vector<std::uint64_t> voxels(codes.size() / sizeof(std::uint64_t));
+        std::memcpy(voxels.data(), codes.data(), codes.size());
+        return voxels;
+    };
+    const auto isGround = [](std::uint64_t code) { return cellOfCode(code).y == 0; };
+    const std::vector<std::uint64_t> both = voxelsOf(" --ground");
+    const auto ground = static_cast<double>(std::ranges::count_if(both, isGround));
+    const double radius = kResolution - 1;
+    EXPECT_NEAR(ground, std::numbers::pi * radius * radius, 8.0 * radius) << "within a voxel of its edge";
+    EXPECT_NEAR(static_cast<double>(both.size()) - ground, static_cast<double>(voxelsOf("").size()), 0.2 * ground);
+    expectError("voxelize cube.glb -o a.ply --ground --resolution 131072", 2, {"--ground", "65536"});
 }
 
 TEST_F(CliFormats, WrongUpAndScaleAreUsageErrors)

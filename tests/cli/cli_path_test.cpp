@@ -270,6 +270,11 @@ TEST_F(CliPath, ErrorsNameTheOption)
     expectError(path + "--environment-turn 90", 2, {"--environment-turn needs", "--environment FILE"});
     expectError(path + "--environment none --environment-strength 2", 2,
                 {"--environment-strength needs", "--environment FILE"});
+    expectError(path + "--background-blur 5", 2, {"--background-blur needs", "--environment FILE"});
+    expectError(path + "--environment sky.exr --background-blur 91", 2, {"--background-blur 91", "at most 90"});
+    expectError(path + "--time-of-day 6", 2, {"--time-of-day 6", "23:59"});
+    expectError(path + "--time-of-day 24:00", 2, {"--time-of-day 24:00"});
+    expectError(path + "--time-of-day 6:00 --sun 1,1,1", 2, {"--time-of-day", "--sun"});
     expectError(path + "--focus 2", 2, {"--focus needs --aperture"});
     expectError(path + "--aov", 2, {"--aov", "x.png"});
     expectError(path + "--spp 0", 2, {"--spp"});

@@ -89,6 +89,16 @@ void addViewOptions(CLI::App& app, DemoOptions& options)
     cli::addValue(app, "--camera-path", options.camera_path, cli::parsePath, "FILE",
                   "fly along the cameras of a file, as zvo render does")
         ->group(kGroup);
+    app.add_option_function<std::string>(
+           "--time-of-day",
+           [&options](const std::string& text)
+           {
+               const glm::dvec3 to_sun = cli::parseTimeOfDay("--time-of-day", text);
+               options.view_changes.emplace_back([to_sun](ViewState& view) { view.frame.trace.to_sun = to_sun; });
+           },
+           "the sun as at this time, 45 degrees north at an equinox, as zvo render has it")
+        ->type_name("HH:MM")
+        ->group(kGroup);
     cli::addValue(app, "--environment", options.environment.map, cli::parsePath, "FILE",
                   "a map of the light from all directions, .hdr or .exr, in place of sun and sky, or none for no light")
         ->group(kGroup);
@@ -97,6 +107,9 @@ void addViewOptions(CLI::App& app, DemoOptions& options)
         ->group(kGroup);
     cli::addValue(app, "--environment-strength", options.environment.strength, cli::parsePositive, "FACTOR",
                   "factor for the light of maps (default 1)")
+        ->group(kGroup);
+    cli::addValue(app, "--background-blur", options.environment.background_blur, cli::parseBlur, "DEGREES",
+                  "blurs what the camera sees of maps, above 0 to 90; their light stays (default: sharp)")
         ->group(kGroup);
 }
 

@@ -2,6 +2,7 @@
 #include "demo/app/view_controls.h"
 
 #include "common/names.h"
+#include "core/scene/sky.h"
 #include "demo/input/sun_control.h"
 #include "demo/panels/panel_text.h"
 #include "demo/world/resolution_ladder.h"
@@ -11,6 +12,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <string>
 
 namespace zvo::demo
@@ -119,11 +121,18 @@ void showOcclusion(ViewState& view, const ViewInfo&)
 
 void showSun(ViewState& view, const ViewInfo&)
 {
+    auto hour = static_cast<float>(hourOfSun(view.frame.trace.to_sun));
+    const int minutes = static_cast<int>(std::lround(60 * hour)) % (24 * 60);
+    const std::string clock = fmt::format("{}:{:02}", minutes / 60, minutes % 60);
+    if (ImGui::SliderFloat("time of day", &hour, 0.0F, 24.0F, clock.c_str(), ImGuiSliderFlags_AlwaysClamp))
+    {
+        view.frame.trace.to_sun = sunAtHour(hour);
+    }
     const SunAngles before = sunAngles(view.frame.trace.to_sun);
     auto azimuth = static_cast<float>(before.azimuth);
     auto elevation = static_cast<float>(before.elevation);
     bool is_moved = ImGui::SliderFloat("sun azimuth", &azimuth, 0.0F, 360.0F, "%.0f deg", ImGuiSliderFlags_AlwaysClamp);
-    is_moved |= ImGui::SliderFloat("sun height", &elevation, -10.0F, 89.0F, "%.0f deg", ImGuiSliderFlags_AlwaysClamp);
+    is_moved |= ImGui::SliderFloat("sun height", &elevation, -89.0F, 89.0F, "%.0f deg", ImGuiSliderFlags_AlwaysClamp);
     if (is_moved)
     {
         view.frame.trace.to_sun = toSun({azimuth, elevation});

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "demo/world/renderer.h"
 
+#include "core/path/daylight.h"
+
 #include <utility>
 
 namespace zvo::demo
@@ -61,8 +63,9 @@ std::optional<std::uint32_t> Renderer::cacheFrames() const
 FrameSubject Renderer::begin(const DeviceTree& tree, const TraceCamera& camera, const Picture& picture)
 {
     const TraceOptions& options = m_options.trace;
-    const double strength = picture.has_sun ? options.sun : 0.0;
-    m_sky.setSun({.direction = options.to_sun, .irradiance = strength * kSunColor});
+    Sun sun = daylight(options.to_sun);
+    sun.irradiance *= picture.has_sun ? 1.0 : 0.0;
+    m_sky.setSun(sun);
     if (picture.edited && usesCache(integrator()))
     {
         m_renderer.cache().noteChange();

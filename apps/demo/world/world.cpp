@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "demo/world/world.h"
 
+#include "common/ground.h"
 #include "common/progress.h"
 #include "common/session.h"
 #include "common/tree_input.h"
@@ -86,6 +87,10 @@ std::unique_ptr<World> World::make(vk::HeadlessDevice& device, const WorldOption
         const Bounds bounds = boundsOverTime(*input.animated);
         const Grid grid = cli::placeGrid(options.voxels, *input.animated, bounds);
         const Bounds subject = cli::subjectOf(*input.animated, bounds, grid);
+        if (options.voxels.ground)
+        {
+            cli::addGround(*input.animated, bounds, grid);
+        }
         world.reset(new World{name, subject,
                               LiveScene(device, std::move(*input.animated), grid, liveOptions(options), listener)});
         if (!world->scene.moves())

@@ -3,12 +3,14 @@
 
 #include "core/base/divide_up.h"
 #include "core/base/new_version.h"
+#include "core/scene/sky.h"
 #include "vk/device.h"
 #include "zvo/error.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 namespace zvo
 {
@@ -51,6 +53,8 @@ DeviceEnvironment::DeviceEnvironment(vk::Device& device, std::uint32_t width, st
     }
     m_values.map = mapOf(width, height, turn);
     m_values.strength = static_cast<float>(strength);
+    m_values.background_width = width;
+    m_values.background_height = height;
     const std::uint64_t texel_count = std::uint64_t{width} * height;
     const std::uint64_t cell_count = std::uint64_t{m_values.map.cells_x} * m_values.map.cells_y;
     const std::uint64_t table_cells = gpu::kNormals * cell_count;
@@ -100,8 +104,17 @@ void DeviceEnvironment::setSun(const Sun& sun)
     if (before.to_sun != m_values.to_sun || before.sun != m_values.sun || before.sun_height != m_values.sun_height)
     {
         m_is_current = false;
+        m_is_prepared = m_is_prepared && (!m_is_sky || before.to_sun == m_values.to_sun);
         m_version = newVersion();
     }
+}
+
+void DeviceEnvironment::setBackground(vk::Device& device, HdrImage map)
+{
+    m_background = {device, "light/background", map.texels.size()};
+    m_values.background_width = map.width;
+    m_values.background_height = map.height;
+    m_background_upload = std::move(map);
 }
 
 void DeviceEnvironment::chooseEvenly()
@@ -117,20 +130,24 @@ void DeviceEnvironment::prepare(vk::FrameGraph& graph)
         if (m_is_sky)
         {
             vk::Pass pass = graph.addPass(gpu::light::SkyTexels{});
-            const gpu::SkyTexelsParams params = {pass.write(m_texels), m_values.map.width, m_values.map.height};
+            const gpu::SkyTexelsParams params = {pass.write(m_texels), skyOf(glm::dvec3(m_values.to_sun)),
+                                                 m_values.map.width, m_values.map.height};
             pass.dispatch(m_texels.count(), params);
         }
         else
         {
             graph.update(m_texels, 0, m_upload); // none where they were uploaded
+            graph.update(m_background, 0, m_background_upload.texels);
         }
         buildTables(graph);
         m_upload = {};
+        m_background_upload = {};
         m_is_prepared = true;
     }
     if (!m_is_current)
     {
         m_values.texels = {m_texels.address()};
+        m_values.background = {(m_background.count() == 0 ? m_texels : m_background).address()};
         m_values.cells = {m_cells.address()};
         m_values.gives = {m_gives.address()};
         graph.update(m_buffer, 0, std::array{m_values});
@@ -177,6 +194,7 @@ void DeviceEnvironment::buildTables(vk::FrameGraph& graph)
 gpu::ConstPtr<gpu::Environment> DeviceEnvironment::read(vk::AnyPass& pass) const
 {
     pass.read(m_texels);
+    pass.read(m_background);
     pass.read(m_cells);
     return pass.read(m_buffer);
 }

@@ -23,14 +23,11 @@ struct Sun
     double angle = 0.00465;                 // radians from the middle to the rim
 };
 
-/// The colour of the sun of the simple sky, as shaders/lib/sky.glsl has it.
-inline constexpr glm::dvec3 kSunColor = {1.0, 0.93, 0.82};
-
 /// Light from outside of the grid: a map, or the simple sky, and a sun.
 class DeviceEnvironment
 {
 public:
-    /// The simple sky (shaders/lib/sky.glsl).
+    /// The simple sky (core/scene/sky.h) at the place of the sun.
     explicit DeviceEnvironment(vk::Device& device);
 
     /// A map of radiance in all directions (shaders/light/environment.h says which one is where). All values must be
@@ -44,6 +41,10 @@ public:
 
     void setSun(const Sun& sun);
 
+    /// Has the camera see another map in place of the one that gives light, which it stands as: before prepare() is
+    /// called. Throws Error{Memory}.
+    void setBackground(vk::Device& device, HdrImage map);
+
     /// From the next prepare() on, directions to the map are chosen evenly, whatever light comes from there; for
     /// comparisons.
     void chooseEvenly();
@@ -54,7 +55,11 @@ public:
 
     /// Has the next prepare() record the sun anew, because the last frame was lost. The tables must be in an earlier
     /// one.
-    void forgetSun() { m_is_current = false; }
+    void forgetSun()
+    {
+        m_is_current = false;
+        m_is_prepared = m_is_prepared && !m_is_sky; // which follows the sun
+    }
 
     /// Changes whenever the light does.
     [[nodiscard]] std::uint64_t version() const { return m_version; }
@@ -81,9 +86,11 @@ private:
     std::vector<glm::vec3> m_upload; // texels that the device does not have yet
     bool m_is_sky = false;           // the simple one
     bool m_chooses_evenly = false;
-    bool m_is_prepared = false; // texels and tables
-    bool m_is_current = false;  // m_buffer
+    bool m_is_prepared = false;   // texels and tables
+    bool m_is_current = false;    // m_buffer
+    HdrImage m_background_upload; // likewise
     vk::BufferOf<gpu::vec3> m_texels;
+    vk::BufferOf<gpu::vec3> m_background; // no elements: the camera sees m_texels
     vk::BufferOf<gpu::AliasCell> m_cells;
     vk::BufferOf<gpu::AliasTotals> m_totals;
     vk::BufferOf<gpu::vec2> m_gives;

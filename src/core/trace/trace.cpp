@@ -24,7 +24,7 @@ static_assert(static_cast<gpu::uint>(View::Origin) == gpu::kViewOrigin);
 TraceBuffers::TraceBuffers(vk::Device& device, std::uint32_t picture_width, std::uint32_t picture_height,
                            TexelFormat picture_texels)
     : width(picture_width), height(picture_height), texels(picture_texels), args(device, "trace args", 1),
-      rounds(device, "trace rounds", gpu::kTraceRoundsMax), status(device, "trace status", 1)
+      rounds(device, "trace rounds", gpu::kTraceRoundsMax), status(device, "trace status", 1), sky(device, "sky", 1)
 {
     const PictureTiles tiles(*this);
     const std::uint64_t tile_count = tiles.x * tiles.y;
@@ -45,10 +45,10 @@ TraceBuffers::TraceBuffers(vk::Device& device, std::uint32_t picture_width, std:
 std::uint64_t TraceBuffers::bytes() const
 {
     // Every member has a name here, or this does not compile: none is forgotten.
-    const auto& [own_width, own_height, own_texels, starts_, live_, args_, rounds_, status_, hits_, light_, image_] =
-        *this;
-    return starts_.bytes() + live_.bytes() + args_.bytes() + rounds_.bytes() + status_.bytes() + hits_.bytes() +
-           light_.bytes() + image_.bytes();
+    const auto& [own_width, own_height, own_texels, starts_, live_, args_, rounds_, status_, sky_, hits_, light_,
+                 image_] = *this;
+    return starts_.bytes() + live_.bytes() + args_.bytes() + rounds_.bytes() + status_.bytes() + sky_.bytes() +
+           hits_.bytes() + light_.bytes() + image_.bytes();
 }
 
 void tracePrimary(vk::FrameGraph& graph, const DeviceTree& tree, const NodePaths& paths, const TraceCamera& camera,

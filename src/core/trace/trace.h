@@ -3,6 +3,7 @@
 
 #include "core/scene/camera.h"
 #include "core/tree/device_tree.h"
+#include "shared/sky.h"
 #include "trace/light.h"
 #include "trace/trace.h"
 #include "vk/frame_graph.h"
@@ -83,6 +84,7 @@ struct TraceBuffers
     vk::BufferOf<gpu::DispatchArgs> args;   // [1] one workgroup for each live tile
     vk::BufferOf<gpu::DispatchArgs> rounds; // [kTraceRoundsMax] likewise, for later rounds
     vk::BufferOf<gpu::TraceStatus> status;  // [1]
+    vk::BufferOf<gpu::Sky> sky;             // [1]
     vk::BufferOf<gpu::Hit> hits;            // [width * height]; undefined in dead tiles
     vk::BufferOf<gpu::uint> light; // [width * height]; undefined in dead tiles. for View::Iterations, their counts
     vk::BufferOf<gpu::uint> image; // [width * height * texelWords(texels)]
@@ -110,9 +112,9 @@ struct TexelTarget
     TexelFormat format;
 };
 
-/// Records the passes that make a picture of hits and, where options ask for it, light.
+/// Records what makes a picture of hits, of the sky and, where options ask for it, light.
 void shade(vk::FrameGraph& graph, const DeviceTree& tree, const TraceCamera& camera, const TraceOptions& options,
-           const TraceBuffers& buffers, const TexelTarget& target);
+           TraceBuffers& buffers, const TexelTarget& target);
 
 /// Records the pass that reports what the rays of single pixels meet. To be recorded after trace() of the same tree
 /// with the same camera, options and buffers. pixels: [count], at least one, row by row. reports: [count]. Where the

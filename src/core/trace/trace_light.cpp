@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
 // Light at hits, and colours from hits and light.
+#include "core/scene/sky.h"
 #include "core/trace/trace_passes.h"
 #include "core/trace/trace_paths.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace zvo
@@ -31,11 +33,11 @@ void drawBackground(vk::FrameGraph& graph, const TraceCamera& camera, const Trac
     vk::Pass pass = graph.addPass(
         gpu::trace::Sky{.orthographic = camera.orthographic, .texels = target.format, .black = !shows_sky});
     gpu::SkyParams params{};
+    params.sky = pass.read(buffers.sky);
     params.image = pass.write(target.texels);
     params.forward = camera.rays.forward;
     params.half_pixel_x = camera.rays.half_pixel_x;
     params.half_pixel_y = camera.rays.half_pixel_y;
-    params.to_sun = sunDirection(options);
     params.width = buffers.width;
     params.height = buffers.height;
     params.sun = options.sun;
@@ -107,7 +109,8 @@ void shadeLit(vk::FrameGraph& graph, const DeviceTree& tree, const TraceCamera& 
     params.light = pass.read(buffers.light);
     params.emission_words = pass.read(tree.emission_words);
     params.emission = pass.read(tree.emission);
-    params.sun = options.sun * sunDirection(options);
+    params.sky = pass.read(buffers.sky);
+    params.sun = options.sun;
     params.emission_scale = tree.emission_scale;
     params.exposure = options.exposure;
     pass.dispatchIndirect(buffers.args, 0, params, buffers.live.count());
@@ -171,8 +174,9 @@ void traceLight(vk::FrameGraph& graph, const DeviceTree& tree, const NodePaths& 
 }
 
 void shade(vk::FrameGraph& graph, const DeviceTree& tree, const TraceCamera& camera, const TraceOptions& options,
-           const TraceBuffers& buffers, const TexelTarget& target)
+           TraceBuffers& buffers, const TexelTarget& target)
 {
+    graph.update(buffers.sky, 0, std::array{skyOf(options.to_sun)});
     drawBackground(graph, camera, options, buffers, target);
     if (options.view == View::Color)
     {

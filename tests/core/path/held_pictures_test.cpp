@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Path-traced pictures of whole scenes, compared with those that are held in tests/pictures.
+#include "core/path/daylight.h"
 #include "core/path/develop.h"
 #include "core/path/path_tracer.h"
 #include "io/gltf/gltf_loader.h"
@@ -88,7 +89,7 @@ TEST(HeldPictures, Atrium)
 {
     const Place atrium = placeOf("atrium.glb");
     DeviceEnvironment day(test::device().device());
-    day.setSun({.direction = {-0.6, 0.75, 0.45}, .irradiance = 2.2 * kSunColor});
+    day.setSun(daylight());
     expectHeld("atrium_day", atrium, day, 1.0F);
     DeviceEnvironment night = test::constantSky(glm::vec3(0.0F));
     expectHeld("atrium_night", atrium, night, 40.0F);

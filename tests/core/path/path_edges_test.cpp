@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Path tracing at its limits: no voxels, one voxel, no light, deep grids, cameras in odd places, scenes of all kinds.
 #include "core/base/read_file.h"
+#include "core/path/daylight.h"
 #include "core/path/path_tracer.h"
 #include "io/image/hdr_image_io.h"
 #include "io/scene/animated_scene.h"
@@ -235,7 +236,7 @@ HdrImage hardMap()
 std::vector<DeviceEnvironment> allLights()
 {
     std::vector<DeviceEnvironment> lights;
-    lights.emplace_back(device().device()).setSun({.direction = {-0.6, 0.75, 0.45}, .irradiance = 2.2 * kSunColor});
+    lights.emplace_back(device().device()).setSun(daylight());
     lights.push_back(test::constantSky(glm::vec3(0.0F)));
     lights.emplace_back(device().device(), hardMap(), 0.3, 1.0);
     for (const char* name : {"kloppenheim_05_1k.hdr", "phalzer_forest_01_1k.hdr"})

@@ -58,6 +58,22 @@ TEST(PathFurnace, AWhiteCubeCannotBeSeen)
     }
 }
 
+// What the camera sees of a map may be another one than that which gives light.
+TEST(PathTracer, BackgroundsGiveNoLight)
+{
+    std::vector<LitVoxel> voxels;
+    test::addBox(voxels, {2, 2, 2}, {6, 6, 6}, whiteVoxel());
+    const DeviceTree tree = test::litTree(device(), voxels, 3);
+    DeviceEnvironment sky = constantSky(glm::vec3(1.0F));
+    sky.setBackground(device().device(), {2, 1, {glm::vec3(0.25F), glm::vec3(0.25F)}});
+    for (const LightSampling way : kWays)
+    {
+        const PathPicture picture = pictureOf(tree, sky, outside(), 8, 256, {.bounces = 1, .sampling = way});
+        EXPECT_NEAR(picture.pixels[3 * 8 + 4].r, 1.0, 0.02) << "the cube, at the middle";
+        EXPECT_NEAR(picture.pixels[0].r, 0.25, 1e-6) << "beside it";
+    }
+}
+
 // With so many bounces that all paths get out, so does a body with holes.
 TEST(PathFurnace, AWhiteBowlCannotBeSeen)
 {

@@ -221,12 +221,24 @@ TEST(TexelFormat, HalfFloatsOfOtherViewsAreTheLinearValuesOfTheCodes)
     }
 }
 
-// The sky and sun of shaders/lib/sky.glsl and trace/shade.comp, in double precision.
+// The sky of a high sun, as core/scene/sky.h and shaders/lib/sky.glsl have it.
 const glm::dvec3 kSunColor(1.0, 0.93, 0.82);
+const glm::dvec3 kHorizon(0.72, 0.80, 0.90);
+const glm::dvec3 kZenith(0.16, 0.34, 0.70);
 
-glm::dvec3 skyAmbient(const glm::dvec3& normal)
+// Towards the side, below a sun of that height: half of what is above, and half of what is below.
+glm::dvec3 skyAmbient(double sun_height)
 {
-    return glm::mix(glm::dvec3(0.17, 0.16, 0.15), glm::dvec3(0.40, 0.48, 0.62), 0.5 + 0.5 * normal.y);
+    const glm::dvec3 sky = 0.5 * (kHorizon + kZenith);
+    const glm::dvec3 ground = glm::dvec3(0.145, 0.138, 0.13) * (2.2 * sun_height * kSunColor + sky);
+    return 0.5 * (glm::dvec3(0.40, 0.48, 0.62) + 0.57 * ground);
+}
+
+// Around the sun, by Henyey and Greenstein; at a height of 1 - away.
+glm::dvec3 glow(double cosine, double away)
+{
+    const double haze = std::pow(0.09 / (1.49 - 1.4 * cosine), 1.5);
+    return haze * glm::mix(0.2, 1.0, std::pow(away, 4.0)) * glm::dvec3(0.55, 0.52, 0.46);
 }
 
 void expectNear(const glm::dvec4& half, const glm::dvec3& expected)
@@ -249,13 +261,13 @@ TEST(TexelFormat, HalfFloatsAreExposedRadiance)
     const ViewCamera front = ViewCamera::lookAt({8, 8, 24}, {8, 8, 0}, 0.2);
     const std::size_t middle = kTexelsHigh / 2 * kTexelsWide + kTexelsWide / 2;
     TraceOptions options;
-    options.to_sun = {0.0, 3.0, 4.0};
+    options.to_sun = {0.0, 4.0, 3.0};
     options.sun = 5.0F;
     options.exposure = 1.7F;
     options.shadows = false;
     const auto decode = [](double code) { return std::pow((code / 255.0 + 0.055) / 1.055, 2.4); };
     const glm::dvec3 albedo(decode(200.0), decode(100.0), decode(50.0));
-    const glm::dvec3 arrives = 5.0 * 0.8 * kSunColor + skyAmbient({0.0, 0.0, 1.0});
+    const glm::dvec3 arrives = 5.0 * 0.6 * kSunColor + skyAmbient(0.8);
     expectNear(halfsOf(show(octree, front, TexelFormat::Half, options).image, middle), 1.7 * albedo * arrives);
 
     // Emission of (256, 128, 1) / 512 in RGB9E5, times a scale.
@@ -286,18 +298,17 @@ TEST(TexelFormat, HalfFloatsOfTheSkyAreExposedRadiance)
     const std::size_t middle = kTexelsHigh / 2 * kTexelsWide + kTexelsWide / 2;
     TraceOptions options;
     options.exposure = 0.5F;
-    options.to_sun = {-1.0, 0.6, 0.0};
+    options.to_sun = {-0.6, 0.8, 0.0};
     const auto towards = [&](const glm::dvec3& direction)
     {
         const ViewCamera view = ViewCamera::lookAt(glm::dvec3(0.0), direction, 0.9);
         return halfsOf(show(octree, view, TexelFormat::Half, options).image, middle);
     };
-    const double above = 1.0 - 0.4 * 0.4; // part of the way from horizon to zenith, at 0.6 up
-    const glm::dvec3 sky = glm::mix(glm::dvec3(0.72, 0.80, 0.90), glm::dvec3(0.16, 0.34, 0.70), above);
-    expectNear(towards({0.0, 0.6, 0.8}), 0.5 * sky);
-    options.to_sun = {0.0, 0.6, 0.8}; // the middle of the sun's disc
+    const glm::dvec3 sky = glm::mix(kZenith, kHorizon, 0.2 * 0.2); // at 0.8 up
+    expectNear(towards({0.0, 0.8, 0.6}), 0.5 * (sky + glow(0.64, 0.2)));
+    options.to_sun = {0.0, 0.8, 0.6}; // the middle of the sun's disc
     options.sun = 30.0F;
-    expectNear(towards({0.0, 0.6, 0.8}), 0.5 * (sky + 4.0 * 30.0 * kSunColor));
+    expectNear(towards({0.0, 0.8, 0.6}), 0.5 * (sky + glow(1.0, 0.2) + 4.0 * 30.0 * kSunColor));
 }
 
 TEST(TexelFormat, ViewsWithoutSkyOfAnEmptyOctreeAreBlackInEveryFormat)
