@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "pictures.h"
 
+#include "common/picture_file.h"
 #include "io/image/image_io.h"
 #include "zvo/error.h"
 
@@ -28,18 +29,7 @@ std::span<const std::uint8_t> bytesOf(const Picture& picture)
 
 std::uint32_t qualityOf(const RenderOptions& options)
 {
-    return options.quality.value_or(90);
-}
-
-// The file of a picture of pixels: what the output's name tells, or a PNG.
-std::vector<std::uint8_t> encode(const Picture& picture, const RenderOptions& options)
-{
-    const std::string extension = extensionOf(options.output.path);
-    const std::span<const std::uint8_t> rgba = bytesOf(picture);
-    return extension == ".webp" ? encodeWebp(picture.width, picture.height, rgba, qualityOf(options))
-           : extension == ".jpg" || extension == ".jpeg"
-               ? encodeJpeg(picture.width, picture.height, rgba, qualityOf(options))
-               : encodePng(picture.width, picture.height, rgba);
+    return options.quality.value_or(kUsualQuality);
 }
 
 } // namespace
@@ -75,8 +65,7 @@ void Pictures::checkName() const
     {
         return;
     }
-    static constexpr std::string_view kExtensions[] = {".png", ".jpg", ".jpeg", ".webp", ".exr", ".hdr"};
-    checkPictureName("-o", path, kExtensions);
+    checkPictureName("-o", path, kPictureExtensions);
     if (holdsRadiance(path) && (!m_options.hasRadiance() || !m_options.sheet.empty()))
     {
         const char* const why = m_options.hasRadiance() ? "a --sheet has no radiance" : "--view shows no radiance";
@@ -135,7 +124,9 @@ void Pictures::write(std::uint32_t index, const Picture& picture)
         m_first.emplace(pathOf(index), m_options.output.overwrite);
     }
     const std::vector<std::uint8_t> encoded =
-        picture.file.empty() ? encode(picture, m_options) : std::vector<std::uint8_t>();
+        picture.file.empty()
+            ? encodePicture(m_options.output.path, picture.width, picture.height, picture.texels, qualityOf(m_options))
+            : std::vector<std::uint8_t>();
     m_first->write(std::as_bytes(std::span(picture.file.empty() ? encoded : picture.file)));
     m_first->finish();
     m_first.reset();

@@ -4,6 +4,7 @@
 #include "common/environment_input.h"
 #include "common/focus.h"
 #include "common/output.h"
+#include "common/picture_file.h"
 #include "common/report.h"
 #include "core/path/aov.h"
 #include "io/image/hdr_image_io.h"
@@ -290,13 +291,10 @@ Picture Renderer::downloadSamples(PictureTimes& times)
         const SampledPicture picture = m_renderer.samples(m_frame);
         const HdrImage image =
             pictureOf(m_device.download(picture.sums), picture.width, picture.height, picture.sample_count);
-        const bool is_hdr = extensionOf(m_options.output.path) == ".hdr";
         return {image.width,
                 image.height,
                 {},
-                is_hdr           ? encodeHdr(image)
-                : m_options.aovs ? encodeWithAovs(image)
-                                 : encodeExr(image)};
+                m_options.aovs ? encodeWithAovs(image) : encodeRadiance(m_options.output.path, image)};
     }
     m_device.run([&](vk::FrameGraph& graph) { m_renderer.develop(graph, m_frame); });
     times.exposure = m_device.download(m_renderer.exposure()).front();

@@ -172,6 +172,7 @@ private:
     bool save();
     bool write(const std::filesystem::path& file, bool overwrites);
     void saveAs(const std::filesystem::path& file);
+    void savePicture(const std::filesystem::path& file);
     void openDialog();
     void saveDialog();
     bool drawDialogs();

@@ -4,13 +4,16 @@
 
 #include "common/environment_input.h"
 #include "common/output.h"
+#include "common/picture_file.h"
 #include "common/progress.h"
 #include "common/tree_export.h"
 #include "zvo/error.h"
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <exception>
+#include <span>
 #include <utility>
 
 namespace zvo::demo
@@ -23,7 +26,8 @@ constexpr int kSavedMost = 1000; // largest number in a file's name
 
 const std::vector<std::string> kReadExtensions = {".zvo", ".vox", ".glb",  ".gltf", ".obj",
                                                   ".ply", ".stl", ".json", ".hdr",  ".exr"};
-const std::vector<std::string> kWrittenExtensions = {".zvo", ".vox", ".ply", ".glb", ".nvdb"};
+const std::vector<std::string> kWrittenExtensions = {".zvo", ".vox",  ".ply", ".glb", ".nvdb",
+                                                     ".png", ".webp", ".jpg", ".exr", ".hdr"};
 
 // A name in the working folder that no file has yet.
 std::string freeName(const std::string& stem)
@@ -104,8 +108,36 @@ bool App::write(const std::filesystem::path& file, bool overwrites)
     return is_written;
 }
 
+// Writes the picture without panels as it was traced last: while it stands still, in full size, with all samples so
+// far.
+void App::savePicture(const std::filesystem::path& file)
+{
+    try
+    {
+        finishAll();
+        cli::Output output(file.string(), true);
+        const std::vector<std::uint8_t> bytes =
+            cli::holdsRadiance(file.string())
+                ? cli::encodeRadiance(file.string(), m_renderer.radiance())
+                : cli::encodePicture(file.string(), m_renderer.pictureSize().width, m_renderer.pictureSize().height,
+                                     m_renderer.pixels());
+        output.write(std::as_bytes(std::span(bytes)));
+        output.finish();
+        note("saved " + file.string());
+    }
+    catch (const std::exception& error)
+    {
+        cli::talkError(error);
+    }
+    m_frame_start = Clock::now();
+}
+
 void App::saveAs(const std::filesystem::path& file)
 {
+    if (std::ranges::find(cli::kPictureExtensions, cli::extensionOf(file.string())) != cli::kPictureExtensions.end())
+    {
+        return savePicture(file);
+    }
     if (write(file, true) && cli::treeFormatOf(file.string()) == "zvo")
     {
         m_saved_file = file; // by Ctrl+S from now on

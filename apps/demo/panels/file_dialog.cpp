@@ -120,17 +120,22 @@ bool FileDialog::showEntries()
 // The kinds of files that can be written: a choice changes the name's extension.
 void FileDialog::showExtensions()
 {
+    constexpr int kColumns = 5;
+    if (!ImGui::BeginTable("kinds", kColumns, ImGuiTableFlags_SizingStretchSame))
+    {
+        return;
+    }
     for (const std::string& extension : m_extensions)
     {
+        ImGui::TableNextColumn();
         ImGui::PushID(extension.c_str());
         if (ImGui::RadioButton(extension.c_str(), extensionOf(m_name) == extension))
         {
             m_name = std::filesystem::path(m_name).replace_extension(extension).string();
         }
         ImGui::PopID();
-        ImGui::SameLine();
     }
-    ImGui::NewLine();
+    ImGui::EndTable();
 }
 
 std::optional<std::filesystem::path> FileDialog::show()

@@ -2,6 +2,8 @@
 #include "demo/world/renderer.h"
 
 #include "core/path/daylight.h"
+#include "core/path/develop.h"
+#include "zvo/error.h"
 
 #include <utility>
 
@@ -99,6 +101,26 @@ void Renderer::recordDevelopment(vk::FrameGraph& graph, const FrameOptions& opti
     m_options = options;
     m_renderer.denoise(graph, m_options);
     m_renderer.develop(graph, m_options);
+}
+
+PictureSize Renderer::pictureSize() const
+{
+    return {m_renderer.buffers().width, m_renderer.buffers().height};
+}
+
+std::vector<gpu::uint> Renderer::pixels() const
+{
+    return m_device.download(m_renderer.buffers().image);
+}
+
+HdrImage Renderer::radiance() const
+{
+    if (!m_options.hasSamples())
+    {
+        throw Error(ErrorCode::Usage, "this picture holds no radiance: let a lit picture stand still, or name it .png");
+    }
+    const SampledPicture picture = m_renderer.samples(m_options);
+    return pictureOf(m_device.download(picture.sums), picture.width, picture.height, picture.sample_count);
 }
 
 void Renderer::recordProbe(vk::FrameGraph& graph, const DeviceTree& tree, const Picture& picture)

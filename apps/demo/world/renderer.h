@@ -14,6 +14,7 @@
 #include <memory>
 #include <optional>
 #include <utility>
+#include <vector>
 
 namespace zvo::demo
 {
@@ -84,6 +85,12 @@ public:
 
     /// Has frames show what was traced last.
     void showTraced() { m_shows_kept = false; }
+
+    /// The last picture that was traced: its size, its pixels as gpu::kTexelRgba8 row by row, and its mean radiance,
+    /// which only pictures of samples have: Throws Error{Usage} for others. The device must be done with all frames.
+    [[nodiscard]] PictureSize pictureSize() const;
+    [[nodiscard]] std::vector<gpu::uint> pixels() const;
+    [[nodiscard]] HdrImage radiance() const;
 
     /// Records what the window shows.
     void recordFrame(vk::FrameGraph& graph, const Composition& composition);
