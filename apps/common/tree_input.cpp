@@ -38,6 +38,7 @@ TreeData treeOfVox(std::span<const std::uint8_t> bytes, const std::filesystem::p
     }
     TreeData tree = octreeOfVoxels(voxels.grid, voxels.codes);
     addColors(tree, voxels.colors);
+    addEmission(tree, voxels.emission);
     return tree;
 }
 

@@ -2,8 +2,10 @@
 #include "core/tree/tree_build.h"
 
 #include "core/base/morton.h"
+#include "core/tree/rgb9e5.h"
 #include "zvo/error.h"
 
+#include <algorithm>
 #include <bit>
 #include <cassert>
 
@@ -105,6 +107,34 @@ void addColors(TreeData& octree, std::span<const std::uint32_t> colors)
     for (const std::uint32_t color : colors)
     {
         octree.voxel_attributes.push_back({color & kColorMask, gpu::kNoNormal});
+    }
+}
+
+void addEmission(TreeData& octree, std::span<const glm::vec3> emission)
+{
+    assert(emission.empty() || emission.size() == octree.voxel_count);
+    float most = 0;
+    for (const glm::vec3& radiance : emission)
+    {
+        most = std::max({most, radiance.r, radiance.g, radiance.b});
+    }
+    if (most == 0.0F)
+    {
+        return;
+    }
+    octree.emission_scale = most;
+    for (std::size_t i = 0; i < emission.size(); ++i)
+    {
+        if (i % gpu::kVoxelsPerEmissionWord == 0)
+        {
+            octree.emission_words.push_back({0, static_cast<std::uint32_t>(octree.emission.size())});
+        }
+        if (emission[i] != glm::vec3(0.0F))
+        {
+            octree.emission_words.back().x |= 1U << i % gpu::kVoxelsPerEmissionWord;
+            octree.emission.push_back(encodeRgb9e5(emission[i] / most));
+            octree.voxel_attributes[i].color |= gpu::kAttributeEmissive << 24U;
+        }
     }
 }
 

@@ -21,4 +21,8 @@ TreeData octreeOfVoxels(const Grid& grid, std::span<const std::uint64_t> codes);
 /// sRGB red | green << 8 | blue << 16. Nodes get no attributes.
 void addColors(TreeData& octree, std::span<const std::uint32_t> colors);
 
+/// Has voxels with colours give off light in addition. emission: [voxel_count] linear radiance, 0 for those that give
+/// off none; or empty, where nothing does.
+void addEmission(TreeData& octree, std::span<const glm::vec3> emission);
+
 } // namespace zvo

@@ -4,6 +4,8 @@
 #include "core/base/input_error.h"
 #include "io/file/text_cursor.h"
 
+#include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <fmt/format.h>
 #include <optional>
@@ -192,6 +194,10 @@ private:
         {
             readPalette(content);
         }
+        else if (id == "MATL")
+        {
+            readMaterial(content);
+        }
         else if (id == "LAYR")
         {
             const std::int32_t layer = content.number();
@@ -253,6 +259,31 @@ private:
         {
             color = static_cast<std::uint32_t>(content.number()) & 0xffffffU; // the alpha has no meaning
         }
+    }
+
+    // Of materials only the light that they give off is read. The format says what `_emit` and `_flux` are called in
+    // MagicaVoxel, emission and power, but not what they are: a step of power counts as ten times the light.
+    void readMaterial(Content& content)
+    {
+        const std::int32_t index = content.number();
+        const Dictionary material = content.dictionary();
+        const auto type = material.find("_type");
+        const bool emits = type != material.end() && type->second == "_emit";
+        if (!emits || index < 1 || index > static_cast<std::int32_t>(kVoxPaletteSize))
+        {
+            return;
+        }
+        constexpr float kMost = 100.0F; // what is more is no emission that can be chosen
+        constexpr float kMostPower = 8.0F;
+        const auto value = [&](std::string_view key, float otherwise, float most)
+        {
+            const auto entry = material.find(key);
+            const std::optional<float> said =
+                entry == material.end() ? std::nullopt : parseNumber<float>(entry->second);
+            return said && *said >= 0.0F ? std::min(*said, most) : otherwise;
+        };
+        m_scene.emission[static_cast<std::size_t>(index) - 1] =
+            value("_emit", value("_weight", 1.0F, kMost), kMost) * std::pow(10.0F, value("_flux", 0.0F, kMostPower));
     }
 
     void readNode(std::string_view id, Content& content)

@@ -82,6 +82,7 @@ struct VoxNode
 struct VoxScene
 {
     std::array<std::uint32_t, kVoxPaletteSize> palette{}; // red in the lowest byte; of indices from 1 on
+    std::array<float, kVoxPaletteSize> emission{};        // likewise; radiance, over the colour in linear light
     std::vector<VoxModel> models;
     std::map<std::int32_t, VoxNode> nodes; // empty in files without places
     std::set<std::int32_t> hidden_layers;

@@ -10,6 +10,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <glm/glm.hpp>
 #include <span>
 #include <string>
 #include <vector>
@@ -24,12 +25,14 @@ struct VoxVoxels
     Grid grid;                         // voxels of size 1
     std::vector<std::uint64_t> codes;  // Morton codes, ascending, each once
     std::vector<std::uint32_t> colors; // [codes] sRGB red | green << 8 | blue << 16
+    std::vector<glm::vec3> emission;   // [codes] linear radiance; empty where nothing emits
     std::vector<std::string> warnings; // about what was left out
 };
 
 /// The voxels of all models that the scene graph shows. Models are placed in its order; where they overlap, the last
-/// one counts. Hidden nodes and layers are left out, and all frames of an animation but the first. Without a scene
-/// graph, only the first model is read. Throws Error{Input}: one line that begins with name.
+/// one counts. Hidden nodes and layers are left out, and all frames of an animation but the first. Of materials only
+/// emission is read. Without a scene graph, only the first model is read. Throws Error{Input}: one line that begins
+/// with name.
 VoxVoxels readVox(std::span<const std::uint8_t> bytes, const std::filesystem::path& name);
 
 /// Hands the bytes of a .vox file to write, piece by piece: a model for each block of 256^3 voxels that has any, in

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "core/base/input_error.h"
 #include "core/base/morton.h"
+#include "io/image/srgb.h"
 #include "io/voxel/vox_chunks.h"
 #include "io/voxel/vox_file.h"
 
@@ -127,8 +128,15 @@ private:
             const glm::ivec3 local = glm::ivec3(voxel.x, voxel.y, voxel.z) - model.size / 2;
             const glm::ivec3 halves = placement(2 * local + 1);
             const glm::ivec3 cell((halves.x - 1) / 2, (halves.z - 1) / 2, -1 - (halves.y - 1) / 2);
-            m_cells.push_back({cell, m_scene.palette[voxel.index - 1U]});
+            m_cells.push_back({cell, voxel.index - 1U});
         }
+    }
+
+    [[nodiscard]] glm::vec3 emissionOf(std::uint32_t color_index) const
+    {
+        const std::uint32_t color = m_scene.palette[color_index];
+        const glm::dvec3 encoded = glm::dvec3(color & 255U, color >> 8U & 255U, color >> 16U & 255U) / 255.0;
+        return m_scene.emission[color_index] * glm::vec3(srgbToLinear(glm::dvec4(encoded, 1.0)));
     }
 
     VoxVoxels finish()
@@ -151,7 +159,7 @@ private:
         voxels.reserve(m_cells.size());
         for (const Cell& cell : m_cells)
         {
-            voxels.emplace_back(codeOfCell(glm::uvec3(cell.coordinates - corner)), cell.color);
+            voxels.emplace_back(codeOfCell(glm::uvec3(cell.coordinates - corner)), cell.color_index);
         }
         m_cells = {};
         const auto before = [](const auto& a, const auto& b) { return a.first < b.first; };
@@ -161,8 +169,14 @@ private:
             if (i + 1 == voxels.size() || voxels[i + 1].first != voxels[i].first) // the last voxel of its cell
             {
                 m_result.codes.push_back(voxels[i].first);
-                m_result.colors.push_back(voxels[i].second);
+                m_result.colors.push_back(m_scene.palette[voxels[i].second]);
+                m_result.emission.push_back(emissionOf(voxels[i].second));
             }
+        }
+        if (std::ranges::all_of(m_result.emission,
+                                [](const glm::vec3& emission) { return emission == glm::vec3(0.0F); }))
+        {
+            m_result.emission = {};
         }
         return std::move(m_result);
     }
@@ -170,7 +184,7 @@ private:
     struct Cell
     {
         glm::ivec3 coordinates;
-        std::uint32_t color;
+        std::uint32_t color_index; // in the palette
     };
 
     const VoxScene& m_scene;

@@ -15,6 +15,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <map>
 #include <random>
@@ -152,6 +153,40 @@ TEST(VoxFile, ModelsGoWhereTheirNodesSay)
     const std::map<std::array<int, 3>, std::uint32_t> expected = {
         {{9, 20, -5}, kFirstColor}, {{11, 20, -5}, kSecondColor}, {{0, 0, 2}, kFirstColor}, {{0, -2, 2}, kSecondColor}};
     EXPECT_EQ(worldOf(read(file)), expected);
+}
+
+// Materials of the format's extension: index, and a dictionary. Power is a number of tenfold steps.
+TEST(VoxFile, MaterialsThatEmitGiveOffLightOfTheirColor)
+{
+    const auto material = [](int index, const Entries& entries)
+    { return chunk("MATL", number(index) + dictionary(entries)); };
+    const std::string voxels("\0\0\0\1\1\0\0\2\2\0\0\3\3\0\0\4", 16);
+    const std::string head = model(4, 1, 1, voxels);
+    EXPECT_TRUE(read(voxFile(head + material(1, {{"_type", "_diffuse"}, {"_emit", "1"}}))).emission.empty());
+    const VoxVoxels lit =
+        read(voxFile(head + material(2, {{"_type", "_emit"}, {"_emit", "0.5"}, {"_flux", "2"}, {"_ldr", "0.3"}}) +
+                     material(3, {{"_type", "_emit"}, {"_emit", "nonsense"}, {"_flux", "-1"}}) +
+                     material(0, {{"_type", "_emit"}}) + material(256, {{"_type", "_emit"}})));
+    const auto linear = [](double code) { return std::pow((code / 255 + 0.055) / 1.055, 2.4); };
+    ASSERT_EQ(lit.emission.size(), 4U);
+    EXPECT_EQ(lit.emission[0], glm::vec3(0.0F));
+    EXPECT_LT(glm::distance(lit.emission[1], 50.0F * glm::vec3(1.0F, 1.0F, linear(204))), 1e-4F);
+    EXPECT_LT(glm::distance(lit.emission[2], glm::vec3(1.0F, 1.0F, linear(153))), 1e-5F);
+
+    TreeData tree = octreeOfVoxels(lit.grid, lit.codes);
+    addColors(tree, lit.colors);
+    addEmission(tree, lit.emission);
+    tree.node_attributes.resize(tree.nodes.size()); // which the device makes
+    EXPECT_EQ(checkTree(tree).value_or(""), "");
+    ASSERT_EQ(tree.emission.size(), 2U);
+    EXPECT_EQ(tree.emission_words.front().x, 6U);
+    for (std::size_t i = 0; i < 2; ++i)
+    {
+        const std::uint32_t code = tree.emission[i];
+        const glm::vec3 mantissa(code & 511U, code >> 9U & 511U, code >> 18U & 511U);
+        const glm::vec3 radiance = tree.emission_scale * mantissa * std::exp2(static_cast<float>(code >> 27U) - 24.0F);
+        EXPECT_LT(glm::distance(radiance, lit.emission[i + 1]), 0.005F * lit.emission[i + 1].r);
+    }
 }
 
 TEST(VoxFile, HiddenNodesAndLayersAreLeftOutAndTheLastOneStays)

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "shared/gpu.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+namespace zvo
+{
+
+/// A colour of linear channels from 0 to 65408 in 32 bits, RGB9E5: three mantissas of 9 bits, then their exponent:
+/// value = mantissa * 2^(exponent - 24), as decodeRgb9e5() in shaders/lib/color.glsl has it. More is taken as that.
+inline std::uint32_t encodeRgb9e5(const gpu::vec3& color)
+{
+    constexpr int kOneExponent = 16; // of mantissas from 256 on for values from 1 on
+    constexpr float kMantissaMax = 511.0F;
+    const float most = std::max({color.r, color.g, color.b, 1e-6F});
+    const int exponent = std::clamp(kOneExponent + std::ilogb(most), 0, 31);
+    const gpu::vec3 scaled = std::ldexp(1.0F, 24 - exponent) * color;
+    const gpu::uvec3 mantissa(glm::min(glm::round(scaled), kMantissaMax));
+    return mantissa.r | mantissa.g << 9U | mantissa.b << 18U | static_cast<std::uint32_t>(exponent) << 27U;
+}
+
+} // namespace zvo
