@@ -39,6 +39,7 @@ struct BrushInfo
     std::array<std::int32_t, 3> center{}; // voxel; may lie outside of the grid
     std::uint32_t radius = 0;             // voxels beside the centre, at most 64
     std::uint32_t color = 0;              // Fill, Paint: sRGB red | green << 8 | blue << 16
+    Vec3 emission{};                      // Fill, Paint: radiance, linear; needs DynamicTreeInfo::emission_scale
 };
 
 /// The result of an update, known once its frame is done.

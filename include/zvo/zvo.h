@@ -410,11 +410,11 @@ typedef struct ZvoBrushInfo
     int32_t center[3];
     uint32_t radius;
     uint32_t color;
-    uint32_t reserved;
+    float emission[3];
 } ZvoBrushInfo;
 
 #define ZVO_BRUSH_INFO_INIT                                                                                            \
-    ZVO_STRUCT_INIT(ZvoBrushInfo, ZVO_BRUSH_SHAPE_SPHERE, ZVO_BRUSH_ACTION_CARVE, {0, 0, 0}, 0, 0, 0)
+    ZVO_STRUCT_INIT(ZvoBrushInfo, ZVO_BRUSH_SHAPE_SPHERE, ZVO_BRUSH_ACTION_CARVE, {0, 0, 0}, 0, 0, {0, 0, 0})
 
 /// As zvo::UpdateStats.
 typedef struct ZvoUpdateStats

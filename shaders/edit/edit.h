@@ -39,7 +39,7 @@ const uint kBrushBox = 1u;    // voxels at most radius away along each axis
 // Brush::action
 const uint kBrushCarve = 0u; // takes voxels away
 const uint kBrushFill = 1u;  // makes voxels where there are none
-const uint kBrushPaint = 2u; // gives voxels another colour, and takes their emission away
+const uint kBrushPaint = 2u; // gives voxels another colour and another emission, or none
 
 const uint kBrushRadiusMax = 64u; // voxels
 
@@ -52,7 +52,8 @@ struct Brush
     uint radius;  // voxels beside it along each axis, at most kBrushRadiusMax
     uint shape;
     uint action;
-    uint color; // of voxels that are made or painted: sRGB red | green << 8 | blue << 16
+    uint color;    // of voxels that are made or painted: sRGB red | green << 8 | blue << 16 | flags of Attribute << 24
+    uint emission; // of such voxels, with kAttributeEmissive: RGB9E5, as in the emission table
 };
 
 /// The voxels of the grid that a brush can reach, at least one, and the cells that they lie in.

@@ -1,11 +1,12 @@
 #version 460
 // SPDX-License-Identifier: MIT
-// Copies the emission of the emissive voxels of changed leaves.
+// Writes the emission of the emissive voxels of changed leaves: as before the dab, or as the brush asks.
 #extension GL_GOOGLE_include_directive : require
 #include "edit/edit.h"
 
 GPU_ENTRY(EditVoxelsParams, GPU_NO_CONSTANTS);
 
+#include "edit/cells.glsl"
 #include "edit/voxels.glsl"
 #include "lib/emission.glsl"
 
@@ -15,5 +16,9 @@ void main()
     if (!voxel.exists || ((params.attributes.data[voxel.index].color >> 24) & kAttributeEmissive) == 0u)
         return;
     uvec2_ConstPtr words = uvec2_ConstPtr(uint64_t(params.emission_words));
-    params.emission.data[emissionIndex(words, voxel.index)] = params.emission.data[emissionIndex(words, voxel.base)];
+    bool is_new = voxel.base == kNoEditNode;
+    uint emission = params.brush.emission;
+    if (!is_new && (params.brush.action != kBrushPaint || !isUnderBrush(params.brush, voxel.cell)))
+        emission = params.emission.data[emissionIndex(words, voxel.base)];
+    params.emission.data[emissionIndex(words, voxel.index)] = emission;
 }

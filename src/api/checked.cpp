@@ -155,6 +155,10 @@ const BrushInfo& checked(const BrushInfo& info)
 {
     checkedEnum(info.shape, BrushShape::Box, "BrushInfo::shape");
     checkedEnum(info.action, BrushAction::Paint, "BrushInfo::action");
+    for (const float channel : info.emission)
+    {
+        checkedAmount(channel, "BrushInfo::emission");
+    }
     return info;
 }
 

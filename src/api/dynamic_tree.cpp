@@ -181,6 +181,12 @@ bool DynamicTree::edit(Recorder& recorder, const BrushInfo& info)
     brush.center = {info.center[0], info.center[1], info.center[2]};
     brush.radius = info.radius;
     brush.color = info.color;
+    brush.emission = {info.emission[0], info.emission[1], info.emission[2]};
+    if (brush.emission != gpu::vec3(0.0F) && usable(*this).octree->tree().emission_words.count() == 0)
+    {
+        throw Error(ErrorCode::Usage,
+                    "BrushInfo::emission needs DynamicTreeInfo::emission_scale above 0, and a tree with attributes");
+    }
     return usable(*this).changeEdits(recorder, [&](DynamicOctree& octree, vk::FrameGraph& graph)
                                      { return octree.edit(graph, brush); });
 }

@@ -60,7 +60,9 @@ LiveScene::LiveScene(vk::HeadlessDevice& device, const TreeData& tree, const Liv
     dynamic.merge = MergeRule::DynamicWins; // a file has no sums
     dynamic.frames_in_flight = options.frames_in_flight;
     dynamic.attributes = m_fixed.hasAttributes();
-    dynamic.emission_scale = m_fixed.emission.count() != 0 ? m_fixed.emission_scale : 0.0F;
+    dynamic.emission_scale = m_fixed.emission.count() != 0 ? m_fixed.emission_scale
+                             : options.brushes_emit        ? 1.0F
+                                                           : 0.0F;
     m_dynamic = std::make_unique<DynamicOctree>(device, std::move(m_fixed), dynamic);
 }
 
@@ -81,6 +83,8 @@ LiveScene::LiveScene(vk::HeadlessDevice& device, AnimatedScene animated, const G
         makeStaticPart(device, std::move(fixed), grid, {options.coverage, options.attributes, {}, keep_sums},
                        options.structure, listener, dynamic.emission_scale);
     m_info.fixed = std::move(part.info);
+    const float emission_scale = dynamic.emission_scale;
+    dynamic.emission_scale = emission_scale == 0.0F && options.brushes_emit ? 1.0F : emission_scale;
     m_dynamic = std::make_unique<DynamicOctree>(device, std::move(part.tree), dynamic);
     listener.operation("copying what moves");
     std::map<const Scene*, std::shared_ptr<const DynamicMesh>> meshes;
@@ -90,7 +94,7 @@ LiveScene::LiveScene(vk::HeadlessDevice& device, AnimatedScene animated, const G
         std::shared_ptr<const DynamicMesh>& mesh = meshes[object.scene.get()];
         if (mesh == nullptr)
         {
-            mesh = uploadDynamicMesh(device, *object.scene, options.attributes, dynamic.emission_scale);
+            mesh = uploadDynamicMesh(device, *object.scene, options.attributes, emission_scale);
             std::ranges::for_each(mesh->uploaded.warnings, listener.warn);
         }
         m_objects.push_back(m_dynamic->add(mesh, poseAt(object, 0.0)));

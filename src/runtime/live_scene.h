@@ -28,6 +28,7 @@ struct LiveOptions
     bool attributes = BuildOptions().attributes;
     TreeStructure structure = TreeStructure::Svo; // of the static part
     std::uint32_t frames_in_flight = DynamicOptions().frames_in_flight;
+    bool brushes_emit = false; // of a scene in which nothing emits: brushes may give voxels emission
     /// Called with the reason when a dab is left out.
     std::function<void(std::string_view)> warn = [](std::string_view) {};
 };

@@ -80,7 +80,9 @@ void EditMachine::add(const Item& item)
 bool EditMachine::dab(vk::FrameGraph& graph, const Brush& brush)
 {
     const std::uint64_t before = m_octree->edits().changeCount();
-    const bool is_done = m_octree->edit(graph, brush);
+    Brush used = brush;
+    used.emission *= m_octree->tree().emission_scale;
+    const bool is_done = m_octree->edit(graph, used);
     dropForgotten();
     if (!is_done || m_octree->edits().changeCount() == before) // the brush covers nothing of the grid
     {
@@ -89,7 +91,7 @@ bool EditMachine::dab(vk::FrameGraph& graph, const Brush& brush)
     }
     m_shown = Objects{};
     EditModel edited = m_line[m_at];
-    edited.apply(brush);
+    edited.apply(brush, m_octree->tree().emission_words.count() != 0);
     m_line.resize(m_at + 1, edited);
     if (m_is_stroke)
     {

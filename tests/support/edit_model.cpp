@@ -113,8 +113,11 @@ EditModel::EditModel(const Grid& grid, const std::vector<Cell>& cells, bool attr
     }
 }
 
-void EditModel::apply(const Brush& brush)
+void EditModel::apply(const Brush& brush, bool emits)
 {
+    // kEmission in RGB9E5, by hand: its exponent is 17, so a mantissa of 128 is 1.
+    const std::uint32_t emission = emits && brush.emission == kEmission ? 256U | 64U << 9 | 32U << 18 | 17U << 27 : 0U;
+    const std::uint32_t color = brush.color | (emission != 0 ? gpu::kAttributeEmissive << 24 : 0U);
     const int radius = static_cast<int>(brush.radius);
     const auto resolution = static_cast<int>(m_grid.resolution());
     for (int z = -radius; z <= radius; ++z)
@@ -142,15 +145,16 @@ void EditModel::apply(const Brush& brush)
                     Cell made = {m_grid.nodeLevels(), code, {}, 0};
                     if (m_attributes)
                     {
-                        made.attribute = {brush.color, normalCode(outwards(brush, away))};
+                        made.attribute = {color, normalCode(outwards(brush, away))};
+                        made.emission = emission;
                     }
                     m_voxels[code] = made;
                     is_changed = true;
                 }
                 else if (brush.action == BrushAction::Paint && found != m_voxels.end() && m_attributes)
                 {
-                    found->second.attribute.color = brush.color;
-                    found->second.emission = 0;
+                    found->second.attribute.color = color;
+                    found->second.emission = emission;
                     is_changed = true;
                 }
                 if (is_changed)

@@ -22,7 +22,11 @@ public:
     /// cells: as cellsOf() lists them.
     EditModel(const Grid& grid, const std::vector<Cell>& cells, bool attributes);
 
-    void apply(const Brush& brush);
+    /// The emission that some brushes have, over the tree's emission scale.
+    static constexpr gpu::vec3 kEmission{2.0F, 0.5F, 0.25F};
+
+    /// brush: with kEmission, or none. emits: voxels can have emission.
+    void apply(const Brush& brush, bool emits);
 
     /// The edited tree with dynamic objects. moving: the cells of the objects alone; all: those of the objects and the
     /// unedited tree. With MergeRule::Average, a voxel of both has mean attributes only in leaves that no brush has

@@ -57,22 +57,30 @@ constexpr std::array<std::string_view, 2> kBrushShapes = {"sphere", "box"};
 
 ToolState readBrush(const JsonCursor& object)
 {
-    object.allowKeys({"action", "shape", "radius", "color"});
+    object.allowKeys({"action", "shape", "radius", "color", "emission"});
     ToolState brush;
     brush.action = static_cast<BrushAction>(object.at("action").oneOf(kBrushActions));
     brush.shape = static_cast<BrushShape>(object.at("shape").oneOf(kBrushShapes));
     brush.radius = static_cast<int>(object.at("radius").whole(0, gpu::kBrushRadiusMax));
     const glm::vec3 color(object.at("color").vector());
     brush.color = {color.x, color.y, color.z};
+    with(object, "emission",
+         [&](const JsonCursor& value)
+         { brush.emission = static_cast<float>(value.positive(ToolState::kEmissionMax)); });
     return brush;
 }
 
 Json brushJson(const ToolState& brush)
 {
-    return {{"action", kBrushActions[static_cast<std::size_t>(brush.action)]},
-            {"shape", kBrushShapes[static_cast<std::size_t>(brush.shape)]},
-            {"radius", brush.radius},
-            {"color", {double{brush.color[0]}, double{brush.color[1]}, double{brush.color[2]}}}};
+    Json json = {{"action", kBrushActions[static_cast<std::size_t>(brush.action)]},
+                 {"shape", kBrushShapes[static_cast<std::size_t>(brush.shape)]},
+                 {"radius", brush.radius},
+                 {"color", {double{brush.color[0]}, double{brush.color[1]}, double{brush.color[2]}}}};
+    if (brush.emission > 0.0F)
+    {
+        json["emission"] = double{brush.emission};
+    }
+    return json;
 }
 
 } // namespace

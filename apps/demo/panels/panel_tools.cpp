@@ -68,6 +68,8 @@ ToolsAnswer toolsPanel(ToolState& state, const World& world)
         if (state.action != BrushAction::Carve)
         {
             ImGui::ColorEdit3("colour", state.color.data());
+            ImGui::SliderFloat("emission", &state.emission, 0.0F, ToolState::kEmissionMax, "%.2f",
+                               ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp);
         }
     }
     answer.undoes = button("undo", edits->undoCount() != 0);

@@ -5,6 +5,8 @@
 
 #include <array>
 #include <cstdint>
+#include <glm/glm.hpp>
+#include <glm/gtc/color_space.hpp>
 
 namespace zvo::demo
 {
@@ -25,6 +27,9 @@ struct ToolState
     BrushShape shape = BrushShape::Sphere;
     int radius = 8;                                   // voxels
     std::array<float, 3> color = {0.85F, 0.2F, 0.1F}; // sRGB, from 0 to 1
+    float emission = 0;                               // radiance, over the colour in linear light
+
+    static constexpr float kEmissionMax = 100;
 
     bool operator==(const ToolState&) const = default;
 
@@ -36,7 +41,8 @@ struct ToolState
         {
             packed |= static_cast<std::uint32_t>(glm::clamp(color[i], 0.0F, 1.0F) * 255.0F + 0.5F) << (8 * i);
         }
-        return {shape, action, voxel, static_cast<std::uint32_t>(radius), packed};
+        const glm::vec3 linear = glm::convertSRGBToLinear(glm::vec3(color[0], color[1], color[2]));
+        return {shape, action, voxel, static_cast<std::uint32_t>(radius), packed, emission * linear};
     }
 };
 

@@ -54,8 +54,12 @@ Bounds boundsOf(const Scene& scene, const Pose& pose)
 
 LiveOptions liveOptions(const WorldOptions& options)
 {
-    return {options.voxels.coverage, options.voxels.hasAttributes(), options.structure.value_or(TreeStructure::Svo),
-            options.frames_in_flight, cli::talk};
+    return {options.voxels.coverage,
+            options.voxels.hasAttributes(),
+            options.structure.value_or(TreeStructure::Svo),
+            options.frames_in_flight,
+            true,
+            cli::talk};
 }
 
 } // namespace

@@ -23,6 +23,9 @@ struct Brush
     gpu::ivec3 center{0};     // voxel; may lie outside of the grid
     std::uint32_t radius = 0; // voxels beside the centre, at most kBrushRadiusMax
     std::uint32_t color = 0;  // Fill, Paint: sRGB red | green << 8 | blue << 16
+    /// Fill, Paint: radiance, linear, at most 65408 times the tree's emission scale. Of trees without emission it has
+    /// no effect.
+    gpu::vec3 emission{0.0F};
 
     bool operator==(const Brush&) const = default;
 

@@ -4,6 +4,7 @@
 #include "core/base/divide_up.h"
 #include "core/base/lanes.h"
 #include "core/tree/device_tree.h"
+#include "core/tree/rgb9e5.h"
 #include "edit/compact.h"
 #include "octree/octree.h"
 #include "update/update.h"
@@ -20,10 +21,16 @@ namespace zvo
 namespace
 {
 
-gpu::Brush gpuBrush(const Brush& brush)
+// tree: which is edited.
+gpu::Brush gpuBrush(const Brush& brush, const DeviceTree& tree)
 {
-    return {brush.center, brush.radius, static_cast<gpu::uint>(brush.shape), static_cast<gpu::uint>(brush.action),
-            brush.color & 0xFFFFFFU};
+    const bool emits = tree.emission_words.count() != 0 && brush.emission != gpu::vec3(0.0F);
+    return {brush.center,
+            brush.radius,
+            static_cast<gpu::uint>(brush.shape),
+            static_cast<gpu::uint>(brush.action),
+            (brush.color & 0xFFFFFFU) | (emits ? gpu::kAttributeEmissive << 24U : 0U),
+            emits ? encodeRgb9e5(brush.emission / tree.emission_scale) : 0U};
 }
 
 gpu::Ptr<gpu::BeforeChild> ranksOf(vk::AnyPass& pass, DeviceTree& tree)
@@ -289,7 +296,7 @@ void beginEdits(vk::FrameGraph& graph, EditSite& site)
 void recordDab(vk::FrameGraph& graph, EditSite& site, const Brush& brush, const DabExtent& extent,
                const DabSlots& slots, const vk::BufferOf<gpu::SceneView>& tables, DabBuffers& buffers)
 {
-    const gpu::Brush dab = gpuBrush(brush);
+    const gpu::Brush dab = gpuBrush(brush, site.tree);
     recordNodes(graph, site, dab, extent, slots, buffers);
     if (site.tree.hasNodeAttributes())
     {

@@ -112,7 +112,7 @@ public:
         m_octree->endStroke();
         m_line.resize(m_at + 1, m_line.front());
         m_line.push_back(m_line[m_at]);
-        m_line[++m_at].apply(brush);
+        m_line[++m_at].apply(brush, false);
         expectCells(m_line[m_at].cells());
     }
 
@@ -359,7 +359,7 @@ TEST(EditFailingCalls, WithoutMemoryWhatWasShownStaysShown)
             octree.endStroke();
             if (failure.empty())
             {
-                model.apply(brush);
+                model.apply(brush, false);
             }
             return failure;
         };

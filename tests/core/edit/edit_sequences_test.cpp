@@ -35,7 +35,8 @@ rc::Gen<Brush> anyBrush(const Grid& grid)
                      rc::gen::map(rc::gen::tuple(coordinate, coordinate, coordinate), [](const auto& c)
                                   { return gpu::ivec3(std::get<0>(c), std::get<1>(c), std::get<2>(c)); })),
         rc::gen::set(&Brush::radius, rc::gen::oneOf(anyBetween<std::uint32_t>(0, 4), anyBetween<std::uint32_t>(4, 20))),
-        rc::gen::set(&Brush::color, anyBetween<std::uint32_t>(0, 1U << 24)));
+        rc::gen::set(&Brush::color, anyBetween<std::uint32_t>(0, 1U << 24)),
+        rc::gen::set(&Brush::emission, rc::gen::element(gpu::vec3(0.0F), test::EditModel::kEmission)));
 }
 
 rc::Gen<Command> anyStroke(const Grid& grid)
