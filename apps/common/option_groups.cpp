@@ -3,6 +3,7 @@
 
 #include "common/parse.h"
 #include "common/progress.h"
+#include "core/base/grid.h"
 #include "core/base/tuning.h"
 #include "zvo/error.h"
 
@@ -140,6 +141,8 @@ void addVoxelOptions(CLI::App& app, VoxelOptions& options, const std::string& al
              "the time of a scene in which something moves; after its end it begins anew (default 0)");
     addValue(app, "--resolution", options.depth, parseResolution, "N",
              "voxels per edge of the grid, a power of two from 2 to 131072 (default: the scene file's, or else 512)");
+    addValue(app, "--margin", options.margin, integerIn(0, 1U << (Grid::kDepthMax - 1)), "VOXELS",
+             "free voxels of the grid at each side of the scene, to build in (default 0)");
     addCoverageOption(app, options.coverage);
     addValue(app, "--bounds", options.bounds, parseBounds, "x0,y0,z0,x1,y1,z1",
              "the grid is the cube from corner 0 on, as long as the box's longest edge");
@@ -153,6 +156,10 @@ void addVoxelOptions(CLI::App& app, VoxelOptions& options, const std::string& al
             if (options.bounds && options.grid_position)
             {
                 throw Error(ErrorCode::Usage, "--bounds and --grid exclude each other");
+            }
+            if (options.margin && (options.bounds || options.grid_position))
+            {
+                throw Error(ErrorCode::Usage, "--margin goes without --bounds and --grid, which place the grid");
             }
         });
 }

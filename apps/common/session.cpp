@@ -201,12 +201,18 @@ Grid placeGrid(const VoxelOptions& options, const AnimatedScene& animated, const
         return {options.grid_position->origin, options.grid_position->voxel_size, depth};
     }
     const std::optional<Bounds>& wanted = options.bounds ? options.bounds : animated.grid_bounds;
-    if (wanted)
+    if (wanted && !options.margin)
     {
         return Grid::withCorner(*wanted, depth);
     }
-    const Grid grid = Grid::around(bounds, depth);
-    return options.ground ? gridWithGround(grid, bounds) : grid;
+    const std::uint32_t margin = options.margin.value_or(0);
+    if (2 * margin >= 1U << depth)
+    {
+        throw Error(ErrorCode::Usage,
+                    fmt::format("--margin {}: leaves nothing of a grid of {} voxels an edge", margin, 1U << depth));
+    }
+    const Grid grid = Grid::around(wanted.value_or(bounds), depth, margin);
+    return options.ground && !wanted ? gridWithGround(grid, bounds) : grid;
 }
 
 bool warnOfDropped(std::uint64_t voxel_count, const std::map<std::string, std::uint64_t>& dropped)

@@ -47,6 +47,8 @@ const std::vector<WrongUse>& wrongUses()
         {"BoundsAndGrid", 2, "voxelize cube.glb -o a.ply --bounds 0,0,0,1,1,1 --grid 0,0,0,1", {"--grid"}},
         {"MemoryLimitWithoutNumber", 2, "voxelize cube.glb -o a.ply --memory-limit G", {"512M"}},
         {"MemoryLimitInBytesOfNothing", 2, "voxelize cube.glb -o a.ply --memory-limit 2iB", {"512M"}},
+        {"MarginAndGrid", 2, "voxelize cube.glb -o a.ply --margin 1 --grid 0,0,0,1", {"--margin"}},
+        {"MarginOfTheWholeGrid", 2, "voxelize cube.glb -o a.ply --margin 4 --resolution 8", {"--margin", "8 voxels"}},
         {"NumberInAnotherLocale", 2, "voxelize cube.glb -o a.ply --grid 0;0;0;0,1", {"numbers"}},
         {"PictureOfUnknownExtension", 2, "render cube.glb -o a.bmp", {"a.bmp", ".png", ".webp"}},
         {"RadianceOfAView", 2, "render cube.glb -o a.exr --view normal", {"a.exr", "--view shows no radiance"}},

@@ -35,6 +35,28 @@ bool chooseResolution(WorldOptions& options, std::uint32_t depth)
     return is_chosen;
 }
 
+bool chooseMargin(WorldOptions& options, std::uint32_t resolution)
+{
+    const std::uint32_t margin = options.voxels.margin.value_or(0);
+    bool is_chosen = false;
+    if (ImGui::BeginCombo("margin", fmt::format("{} voxels", margin).c_str()))
+    {
+        for (const std::uint32_t part : {0U, 32U, 16U, 8U, 4U}) // of the resolution
+        {
+            const std::uint32_t choice = part == 0 ? 0 : resolution / part;
+            if (ImGui::Selectable(fmt::format("{} voxels", choice).c_str(), choice == margin) && choice != margin)
+            {
+                options.voxels.margin = choice;
+                options.voxels.bounds.reset();
+                options.voxels.grid_position.reset();
+                is_chosen = true;
+            }
+        }
+        ImGui::EndCombo();
+    }
+    return is_chosen;
+}
+
 template <std::size_t count>
 bool chooseOne(const char* label, const std::array<const char*, count>& names, std::size_t& current)
 {
@@ -80,6 +102,7 @@ BuildAnswer buildPanel(const WorldOptions& options, const World& world, const Lo
     }
     WorldOptions wanted = options;
     bool is_chosen = chooseResolution(wanted, world.scene.tree().grid.depth);
+    is_chosen = chooseMargin(wanted, world.scene.tree().grid.resolution()) || is_chosen;
     std::size_t coverage = options.voxels.coverage == Coverage::Thin ? 0 : 1;
     if (chooseOne("coverage", kCoverageNames, coverage))
     {

@@ -51,13 +51,14 @@ Grid cubeFrom(const glm::dvec3& corner, const glm::dvec3& high, double edge, std
 
 } // namespace
 
-Grid Grid::around(const Bounds& bounds, std::uint32_t depth)
+Grid Grid::around(const Bounds& bounds, std::uint32_t depth, std::uint32_t margin)
 {
-    assert(depth >= 1 && depth <= kDepthMax);
+    assert(depth >= 1 && depth <= kDepthMax && 2 * margin < 1U << depth);
     const glm::dvec3 low = bounds.empty() ? glm::dvec3(0.0) : glm::dvec3(bounds.min);
     const glm::dvec3 high = bounds.empty() ? glm::dvec3(0.0) : glm::dvec3(bounds.max);
     const double longest = longestEdge(high - low);
-    const double edge = longest > 0.0 ? longest : 1.0;
+    const double resolution = 1U << depth;
+    const double edge = (longest > 0.0 ? longest : 1.0) * resolution / (resolution - 2.0 * margin);
     const glm::dvec3 corner = 0.5 * (low + high) - 0.5 * edge;
     return cubeFrom(glm::min(corner, low), high, edge, depth);
 }

@@ -43,8 +43,9 @@ struct Grid
     /// depth.
     [[nodiscard]] std::uint32_t rootResolution() const { return 1U << (2 * nodeLevels()); }
 
-    /// The smallest cube around bounds, centred on it. Empty bounds or a single point give a cube of edge 1.
-    static Grid around(const Bounds& bounds, std::uint32_t depth);
+    /// The smallest cube around bounds, centred on it, with `margin` free voxels at each side, below half of the
+    /// resolution. Empty bounds or a single point are taken to have an edge of 1.
+    static Grid around(const Bounds& bounds, std::uint32_t depth, std::uint32_t margin = 0);
 
     /// The cube with bounds' minimum corner and the length of its longest edge. Throws Error{Usage} for empty bounds.
     static Grid withCorner(const Bounds& bounds, std::uint32_t depth);

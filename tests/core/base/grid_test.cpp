@@ -35,6 +35,13 @@ TEST(Grid, AroundIsTheSmallestCubeCenteredOnTheBox)
     EXPECT_EQ(grid.origin, glm::vec3(1.0F, 1.0F, 1.5F));
 }
 
+TEST(Grid, AMarginIsFreeAtEachSide)
+{
+    const Grid grid = Grid::around(box({1, 2, 3}, {5, 4, 4}), 4, 4);
+    EXPECT_EQ(grid.voxel_size, 0.5F);
+    EXPECT_EQ(grid.origin, glm::vec3(-1.0F, -1.0F, -0.5F));
+}
+
 TEST(Grid, WithCornerStartsAtTheMinimum)
 {
     const Grid grid = Grid::withCorner(box({1, 2, 3}, {5, 4, 4}), 3);
