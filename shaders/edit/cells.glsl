@@ -37,6 +37,12 @@ bool isInBox(EditBox box, uint level, uvec3 cell)
     return all(greaterThanEqual(cell, box.lo >> shift)) && all(lessThanEqual(cell, box.hi >> shift));
 }
 
+// Whether a voxel is in the box.
+bool isInDab(EditBox box, uvec3 voxel)
+{
+    return all(greaterThanEqual(voxel, box.lo)) && all(lessThanEqual(voxel, box.hi));
+}
+
 // Number, among those of its level, of a cell of the box.
 uint cellNumber(EditBox box, uint level, uvec3 cell)
 {
@@ -66,24 +72,42 @@ uint levelOf(EditBox box, inout uint number)
     return level;
 }
 
-bool isUnderBrush(Brush brush, uvec3 voxel)
+uint shapeOf(Brush brush)
 {
-    ivec3 away = abs(ivec3(voxel) - brush.center);
-    int radius = int(brush.radius);
-    bool in_box = max(away.x, max(away.y, away.z)) <= radius;
-    ivec3 near = min(away, radius + 1); // squares of large distances would overflow
-    int square = near.x * near.x + near.y * near.y + near.z * near.z;
-    return in_box && (brush.shape == kBrushBox || square <= radius * (radius + 1));
+    return brush.kind & ((1u << kBrushActionShift) - 1u);
 }
 
-// The direction of the surface that a brush makes at a voxel: away from its centre; for a box, across the nearest side.
+uint actionOf(Brush brush)
+{
+    return brush.kind >> kBrushActionShift;
+}
+
+// Of a sphere.
+int radiusOf(Brush brush)
+{
+    return (brush.hi.x - brush.lo.x) >> 1;
+}
+
+bool isUnderBrush(Brush brush, uvec3 voxel)
+{
+    ivec3 at = ivec3(voxel);
+    bool in_box = all(greaterThanEqual(at, brush.lo)) && all(lessThanEqual(at, brush.hi));
+    int radius = radiusOf(brush);
+    ivec3 near = min(abs(at - brush.lo - radius), radius + 1); // squares of large distances would overflow
+    int square = near.x * near.x + near.y * near.y + near.z * near.z;
+    return in_box && (shapeOf(brush) == kBrushBox || square <= radius * (radius + 1));
+}
+
+// The direction of the surface that a brush makes at a voxel: away from its middle; for a box, across the nearest side,
+// or sides. Zero in the middle.
 ivec3 brushNormal(Brush brush, uvec3 voxel)
 {
-    ivec3 away = ivec3(voxel) - brush.center;
-    ivec3 size = abs(away);
-    int most = max(size.x, max(size.y, size.z));
-    ivec3 side = ivec3(size.x == most ? away.x : 0, size.y == most ? away.y : 0, size.z == most ? away.z : 0);
-    return brush.shape == kBrushBox ? side : away;
+    ivec3 from_lo = ivec3(voxel) - brush.lo;
+    ivec3 from_hi = brush.hi - ivec3(voxel);
+    ivec3 near = min(from_lo, from_hi);
+    int nearest = min(near.x, min(near.y, near.z));
+    ivec3 side = mix(ivec3(0), sign(from_lo - from_hi), equal(near, ivec3(nearest)));
+    return shapeOf(brush) == kBrushBox ? side : from_lo - radiusOf(brush);
 }
 
 #endif

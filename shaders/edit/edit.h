@@ -32,26 +32,32 @@ GPU_NAMESPACE_BEGIN
 
 const uint kEditGroup = 64u; // threads of most workgroups: for a node's children, or a leaf's voxels, one each
 
-// Brush::shape
-const uint kBrushSphere = 0u; // voxels whose centres are less than radius + 1/2 voxels away
-const uint kBrushBox = 1u;    // voxels at most radius away along each axis
+// The shape of a brush
+const uint kBrushSphere = 0u; // voxels whose centres are less than half of the box's edge away from its middle
+const uint kBrushBox = 1u;    // all voxels of the box
 
-// Brush::action
+// Its action
 const uint kBrushCarve = 0u; // takes voxels away
-const uint kBrushFill = 1u;  // makes voxels where there are none
+const uint kBrushFill = 1u;  // makes voxels where there are none; of a stamp, all voxels look like it then
 const uint kBrushPaint = 2u; // gives voxels another colour and another emission, or none
 
-const uint kBrushRadiusMax = 64u; // voxels
+const uint kBrushActionShift = 8u; // of the action in Brush::kind
+
+const uint kBrushRadiusMax = 64u;                  // voxels
+const uint kDabEdgeMax = 2u * kBrushRadiusMax + 1u; // of a dab's box
+
+// A stamp has these words for each leaf that its box touches, in the order of cells: the mask of its voxels; then
+// colour (with flags), normal and emission of each of the 64 cells.
+const uint kStampWords = 2u + 3u * 64u;
 
 const uint kFewLeaves = 64u; // cells: so many are averaged by the same workgroup as the few hundred at most above them
 
 /// What a dab does, and where.
 struct Brush
 {
-    ivec3 center; // voxel; may lie outside of the grid
-    uint radius;  // voxels beside it along each axis, at most kBrushRadiusMax
-    uint shape;
-    uint action;
+    ivec3 lo; // of the box that it fills; may lie outside of the grid, and of the dab's EditBox
+    ivec3 hi;
+    uint kind;     // shape | action << kBrushActionShift
     uint color;    // of voxels that are made or painted: sRGB red | green << 8 | blue << 16 | flags of Attribute << 24
     uint emission; // of such voxels, with kAttributeEmissive: RGB9E5, as in the emission table
 };
@@ -124,6 +130,7 @@ struct EditFindParams // push constants of edit/find: one thread a cell
     GPU_CONST_PTR(uint) voxels_before_leaf;
     GPU_CONST_PTR(BeforeChild) ranks;
     GPU_PTR(EditCell) cells;
+    GPU_CONST_PTR(uint) stamp; // [leaves * kStampWords] kStamp only
     EditSlots slots;
     uint first_short_entry;
     Brush brush;
@@ -132,7 +139,8 @@ struct EditFindParams // push constants of edit/find: one thread a cell
 #define EDIT_FIND_CONSTANTS(CONSTANT)                                                                                  \
     CONSTANT(0, uint, entries_per_word, kEntriesPerWord,                                                               \
              0u) /* of the lists of a DAG; 0: the static tree is an octree */                                          \
-    CONSTANT(1, bool, attributes, kAttributes, false)
+    CONSTANT(1, bool, attributes, kAttributes, false)                                                                  \
+    CONSTANT(2, bool, stamp, kStamp, false) /* only voxels of a stamp */
 GPU_KERNEL(edit, find, Find, EditFindParams, EDIT_FIND_CONSTANTS)
 
 struct EditAllocateParams // push constants of edit/allocate: one workgroup
@@ -186,14 +194,34 @@ struct EditVoxelsParams // push constants of edit/voxels and edit/emission: a wo
     GPU_PTR(Attribute) attributes;
     GPU_PTR(uvec2) emission_words; // or null
     GPU_PTR(uint) emission;        // or null
+    GPU_CONST_PTR(uint) stamp;     // [leaves * kStampWords] kStamp only
     uint to;
     uint inner_count;
     Brush brush;
     EditBox box;
 };
-GPU_KERNEL(edit, emission, Emission, EditVoxelsParams, GPU_NO_CONSTANTS)
-#define EDIT_VOXELS_CONSTANTS(CONSTANT) CONSTANT(0, bool, emits, kEmits, false)
+#define EDIT_EMISSION_CONSTANTS(CONSTANT) CONSTANT(0, bool, stamp, kStamp, false)
+GPU_KERNEL(edit, emission, Emission, EditVoxelsParams, EDIT_EMISSION_CONSTANTS)
+#define EDIT_VOXELS_CONSTANTS(CONSTANT)                                                                                \
+    CONSTANT(0, bool, emits, kEmits, false)                                                                            \
+    CONSTANT(1, bool, stamp, kStamp, false) /* voxels look like those of a stamp */
 GPU_KERNEL(edit, voxels, Voxels, EditVoxelsParams, EDIT_VOXELS_CONSTANTS)
+
+struct EditCopyParams // push constants of edit/copy, behind edit/find: a workgroup for each cell that is a leaf
+{
+    GPU_CONST_PTR(Node) nodes;
+    GPU_CONST_PTR(EditCell) cells;
+    GPU_CONST_PTR(Attribute) attributes; // kAttributes only
+    GPU_CONST_PTR(uvec2) emission_words; // kEmits only, as the next
+    GPU_CONST_PTR(uint) emission;
+    GPU_PTR(uint) stamp; // [leaves * kStampWords]
+    uint inner_count;
+    EditBox box;
+};
+#define EDIT_COPY_CONSTANTS(CONSTANT)                                                                                  \
+    CONSTANT(0, bool, attributes, kAttributes, false)                                                                  \
+    CONSTANT(1, bool, emits, kEmits, false)
+GPU_KERNEL(edit, copy, Copy, EditCopyParams, EDIT_COPY_CONSTANTS)
 
 struct EditAverageParams // push constants of edit/average: kLanes threads a cell that is a leaf
 {

@@ -43,15 +43,16 @@ ivec4 axisSquares(int first, uint lo, uint hi, int center, bool is_box, int limi
     return mix(ivec4(limit + 1), squares, notEqual(inside, uvec4(0u)));
 }
 
-// The mask of a leaf's voxels that the brush covers, as isUnderBrush() says, and the grid has. leaf: among leaves.
+// The mask of a leaf's voxels that the brush covers, as isUnderBrush() says, and the dab's box has. leaf: among leaves.
 uvec2 voxelsUnderBrush(uvec3 leaf)
 {
-    bool is_box = params.brush.shape == kBrushBox;
-    int limit = is_box ? 0 : int(params.brush.radius * (params.brush.radius + 1u));
+    bool is_box = shapeOf(params.brush) == kBrushBox;
+    int radius = radiusOf(params.brush);
+    int limit = is_box ? 0 : radius * (radius + 1);
     ivec3 first = 4 * ivec3(leaf);
     uvec3 lo = params.box.lo;
     uvec3 hi = params.box.hi;
-    ivec3 center = params.brush.center;
+    ivec3 center = params.brush.lo + radius;
     ivec4 x = axisSquares(first.x, lo.x, hi.x, center.x, is_box, limit);
     ivec4 y = axisSquares(first.y, lo.y, hi.y, center.y, is_box, limit);
     ivec4 z = axisSquares(first.z, lo.z, hi.z, center.z, is_box, limit);
@@ -68,13 +69,18 @@ uvec2 voxelsUnderBrush(uvec3 leaf)
 }
 
 // Computes the leaf's mask after the dab, whether the mask or a voxel changes, and how many voxels more there are then.
-void dab(Node base, uvec3 leaf, inout EditCell cell)
+// number: of the leaf among the cells that are leaves.
+void dab(Node base, uvec3 leaf, uint number, inout EditCell cell)
 {
     uvec2 mask = uvec2(base.mask_lo, base.mask_hi);
     uvec2 under = voxelsUnderBrush(leaf);
-    uvec2 made = params.brush.action == kBrushFill ? under & ~mask : uvec2(0u);
-    uvec2 taken = params.brush.action == kBrushCarve ? under & mask : uvec2(0u);
-    uvec2 painted = params.brush.action == kBrushPaint && kAttributes ? under & mask : uvec2(0u);
+    if (kStamp)
+        under &= uvec2(params.stamp.data[number * kStampWords], params.stamp.data[number * kStampWords + 1u]);
+    uint action = actionOf(params.brush);
+    bool paints = action == kBrushPaint || (kStamp && action == kBrushFill);
+    uvec2 made = action == kBrushFill ? under & ~mask : uvec2(0u);
+    uvec2 taken = action == kBrushCarve ? under & mask : uvec2(0u);
+    uvec2 painted = paints && kAttributes ? under & mask : uvec2(0u);
     uvec2 touched = made | taken | painted;
     cell.mask_lo = (mask.x | made.x) & ~taken.x;
     cell.mask_hi = (mask.y | made.y) & ~taken.y;
@@ -96,6 +102,6 @@ void main()
         base = params.nodes.data[at.node];
     EditCell cell = EditCell(at.node, at.voxels, at.rank, base.mask_lo, base.mask_hi, 0u, 0u, 0u);
     if (level + 1u == params.box.level_count)
-        dab(base, position, cell);
+        dab(base, position, number, cell);
     params.cells.data[index] = cell;
 }

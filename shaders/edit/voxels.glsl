@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The voxels of changed leaves, one a thread. Needs GPU_ENTRY with EditVoxelsParams.
+// The voxels of changed leaves, one a thread. Needs GPU_ENTRY with EditVoxelsParams, and kStamp.
 #ifndef ZVO_SHADERS_EDIT_VOXELS_GLSL
 #define ZVO_SHADERS_EDIT_VOXELS_GLSL
 
@@ -18,13 +18,15 @@ struct EditVoxel
     uint index; // of its attribute
     uint base;  // of its attribute in the base tree, or kNoEditNode
     uvec3 cell; // in the grid
+    uint leaf;  // its number among the cells that are leaves
+    uint bit;   // its cell in the leaf
 };
 
 EditVoxel editVoxel()
 {
     uint number = workgroupIndex();
     uint bit = gl_LocalInvocationIndex;
-    EditVoxel voxel = EditVoxel(false, 0u, kNoEditNode, uvec3(0u));
+    EditVoxel voxel = EditVoxel(false, 0u, kNoEditNode, uvec3(0u), number, bit);
     if (number < levelCellCount(params.box, params.box.level_count - 1u) &&
         params.states.data[params.to].failed == 0u)
     {
@@ -40,6 +42,27 @@ EditVoxel editVoxel()
         }
     }
     return voxel;
+}
+
+// Where the colour, normal and emission of the voxel's cell stand in the stamp.
+uint stampWord(EditVoxel voxel)
+{
+    return voxel.leaf * kStampWords + 2u + 3u * voxel.bit;
+}
+
+// Whether the voxel is to look like that of the stamp.
+bool isStamped(EditVoxel voxel)
+{
+    bool can_be = kStamp && isInDab(params.box, voxel.cell) && actionOf(params.brush) != kBrushCarve;
+    return can_be &&
+           ((params.stamp.data[voxel.leaf * kStampWords + (voxel.bit >> 5)] >> (voxel.bit & 31u)) & 1u) != 0u;
+}
+
+// Whether the voxel, which was there before, gets the look of the brush.
+bool isPainted(EditVoxel voxel)
+{
+    bool can_be = !kStamp && isInDab(params.box, voxel.cell) && actionOf(params.brush) == kBrushPaint;
+    return can_be && isUnderBrush(params.brush, voxel.cell);
 }
 
 #endif

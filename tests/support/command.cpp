@@ -28,7 +28,9 @@ std::ostream& operator<<(std::ostream& out, const Command& command)
     case Action::Dab:
         return out << ' ' << kBrushNames.at(static_cast<std::size_t>(command.brush.action))
                    << (command.brush.shape == BrushShape::Box ? " box " : " sphere ") << command.brush.radius << " at "
-                   << command.brush.center.x << ' ' << command.brush.center.y << ' ' << command.brush.center.z;
+                   << command.brush.center.x << ' ' << command.brush.center.y << ' ' << command.brush.center.z << " to "
+                   << command.brush.span.x << ' ' << command.brush.span.y << ' ' << command.brush.span.z
+                   << (command.brush.part ? ", a part" : "") << (command.brush.stamp != nullptr ? ", a stamp" : "");
     case Action::Add:
         return out << " mesh " << command.item.mesh << ' ' << command.item.placement << " bend " << command.item.bend;
     case Action::Move:

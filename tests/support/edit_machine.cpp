@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "support/edit_machine.h"
 
+#include "oracle/morton.h"
+#include "runtime/copy_voxels.h"
 #include "support/machine_limits.h"
 
 #include "zvo/error.h"
@@ -58,7 +60,7 @@ void EditMachine::run(const Command& command)
         break;
     default:
         m_commands.push_back(command);
-        if (m_commands.size() == kDabsPerFrameMax || std::ranges::count_if(m_commands, isUpdate) == kUpdatesPerFrame)
+        if (m_commands.size() >= kDabsPerFrameMax || std::ranges::count_if(m_commands, isUpdate) >= kUpdatesPerFrame)
         {
             submit();
         }
@@ -125,13 +127,16 @@ void EditMachine::dropForgotten()
     }
 }
 
+// Records as many commands as a frame takes; the others are recorded in a later one.
 void EditMachine::record(vk::FrameGraph& graph)
 {
-    for (; !m_commands.empty(); m_commands.pop_front())
+    int update_count = 0;
+    for (std::uint32_t i = 0; i < kDabsPerFrameMax && !m_commands.empty(); ++i, m_commands.pop_front())
     {
-        if (!recordOne(graph, m_commands.front()))
+        update_count += isUpdate(m_commands.front()) ? 1 : 0;
+        if (update_count > kUpdatesPerFrame || !recordOne(graph, m_commands.front()))
         {
-            return; // the others are recorded in a later frame
+            return;
         }
     }
 }
@@ -318,6 +323,29 @@ void EditMachine::compareShown()
     }
 }
 
+// Compares a copy of what may have been edited with the model.
+void EditMachine::compareCopy()
+{
+    const auto edge = static_cast<int>(m_setting.grid().resolution());
+    const glm::ivec3 lo(std::max(edge - 70, 0));
+    const VoxelClip clip =
+        copyVoxels(m_device, m_octree->tree(), m_octree->editedRoot(), {lo, glm::ivec3(edge - 1, edge - 1, edge - 2)});
+    std::size_t count = 0;
+    for (const auto& [code, voxel] : model().voxels())
+    {
+        const glm::ivec3 cell = glm::ivec3(oracle::mortonDecode(code)) - lo;
+        if (glm::all(glm::greaterThanEqual(cell, glm::ivec3(0))) && cell.z < clip.size().z)
+        {
+            ++count;
+            const std::optional<ClipVoxel>& copied = clip.at(cell);
+            RC_ASSERT(copied.has_value());
+            const gpu::Attribute look = m_setting.attributes ? voxel.attribute : gpu::Attribute{0, gpu::kNoNormal};
+            RC_ASSERT((*copied == ClipVoxel{look, voxel.emission}));
+        }
+    }
+    RC_ASSERT(clip.voxelCount() == count);
+}
+
 void EditMachine::finish()
 {
     compare();
@@ -330,6 +358,7 @@ void EditMachine::finish()
             compare();
         }
     }
+    compareCopy();
 }
 
 } // namespace zvo::test

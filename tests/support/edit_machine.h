@@ -30,7 +30,7 @@ public:
 
     void run(const Command& command);
 
-    /// Compares; then undoes all entries, comparing each, and redoes them, comparing again.
+    /// Compares; then undoes all entries, comparing each, and redoes them, comparing again, and a copy of the voxels.
     void finish();
 
     [[nodiscard]] DynamicOctree& octree() { return *m_octree; }
@@ -62,6 +62,7 @@ private:
     void wait(std::size_t flights_left);
     void compare();
     void compareShown();
+    void compareCopy();
     void settle();
     void dropForgotten();
 

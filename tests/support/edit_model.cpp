@@ -9,6 +9,7 @@
 #include <array>
 #include <bit>
 #include <cstdlib>
+#include <optional>
 
 namespace zvo::test
 {
@@ -84,19 +85,65 @@ private:
     std::uint32_t m_count = 0;
 };
 
-bool isUnder(const Brush& brush, const glm::ivec3& away)
+// The box of a brush without stamp.
+struct Ends
 {
-    const double length = glm::length(glm::dvec3(away));
+    glm::ivec3 lo;
+    glm::ivec3 hi;
+};
+
+Ends endsOf(const Brush& brush)
+{
+    const glm::ivec3 far = brush.center + brush.span;
+    const auto radius = static_cast<int>(brush.radius);
+    return {glm::min(brush.center, far) - radius, glm::max(brush.center, far) + radius};
+}
+
+bool isUnder(const Brush& brush, const glm::ivec3& voxel)
+{
+    const double length = glm::length(glm::dvec3(voxel - brush.center));
     return brush.shape == BrushShape::Box || length < brush.radius + 0.5;
 }
 
-glm::ivec3 outwards(const Brush& brush, const glm::ivec3& away)
+// Across the nearest sides of a box, each in the direction in which it is nearer than the one opposite.
+glm::ivec3 outwards(const Brush& brush, const glm::ivec3& voxel)
 {
-    const int most = std::max({std::abs(away.x), std::abs(away.y), std::abs(away.z)});
-    return brush.shape == BrushShape::Sphere
-               ? away
-               : glm::ivec3(std::abs(away.x) == most ? away.x : 0, std::abs(away.y) == most ? away.y : 0,
-                            std::abs(away.z) == most ? away.z : 0);
+    if (brush.shape == BrushShape::Sphere)
+    {
+        return voxel - brush.center;
+    }
+    const Ends ends = endsOf(brush);
+    int nearest = INT32_MAX;
+    for (glm::length_t axis = 0; axis < 3; ++axis)
+    {
+        nearest = std::min({nearest, voxel[axis] - ends.lo[axis], ends.hi[axis] - voxel[axis]});
+    }
+    glm::ivec3 direction(0);
+    for (glm::length_t axis = 0; axis < 3; ++axis)
+    {
+        direction[axis] += ends.hi[axis] - voxel[axis] == nearest ? 1 : 0;
+        direction[axis] -= voxel[axis] - ends.lo[axis] == nearest ? 1 : 0;
+    }
+    return direction;
+}
+
+// The voxel of a stamp's leaf; nothing if it has none. code: of the voxel in its leaf.
+std::optional<Cell> stamped(const Stamp& stamp, const glm::ivec3& voxel, std::uint32_t code)
+{
+    if (!stamp.box.contains(voxel))
+    {
+        return std::nullopt;
+    }
+    const glm::ivec3 first = stamp.box.lo / 4;
+    const glm::ivec3 size = stamp.box.hi / 4 - first + 1;
+    const glm::ivec3 at = voxel / 4 - first;
+    const std::uint32_t* const words = stamp.words.data() + 194 * (at.x + size.x * (at.y + size.y * at.z));
+    if ((words[code / 32] >> code % 32 & 1U) == 0)
+    {
+        return std::nullopt;
+    }
+    const std::uint32_t* const look = words + 2 + 3 * code;
+    return Cell{0, 0, {look[0], look[1]}, look[2]};
 }
 
 } // namespace
@@ -115,55 +162,67 @@ EditModel::EditModel(const Grid& grid, const std::vector<Cell>& cells, bool attr
 
 void EditModel::apply(const Brush& brush, bool emits)
 {
-    // kEmission in RGB9E5, by hand: its exponent is 17, so a mantissa of 128 is 1.
-    const std::uint32_t emission = emits && brush.emission == kEmission ? 256U | 64U << 9 | 32U << 18 | 17U << 27 : 0U;
-    const std::uint32_t color = brush.color | (emission != 0 ? gpu::kAttributeEmissive << 24 : 0U);
-    const int radius = static_cast<int>(brush.radius);
     const auto resolution = static_cast<int>(m_grid.resolution());
-    for (int z = -radius; z <= radius; ++z)
+    const Ends ends = brush.stamp != nullptr ? Ends{brush.stamp->box.lo, brush.stamp->box.hi} : endsOf(brush);
+    const glm::ivec3 lo = glm::max(ends.lo, glm::ivec3(0));
+    const glm::ivec3 hi = glm::min(ends.hi, glm::ivec3(resolution - 1));
+    for (int z = lo.z; z <= hi.z; ++z)
     {
-        for (int y = -radius; y <= radius; ++y)
+        for (int y = lo.y; y <= hi.y; ++y)
         {
-            for (int x = -radius; x <= radius; ++x)
+            for (int x = lo.x; x <= hi.x; ++x)
             {
-                const glm::ivec3 away(x, y, z);
-                const glm::ivec3 voxel = brush.center + away;
-                if (!isUnder(brush, away) || glm::any(glm::lessThan(voxel, glm::ivec3(0))) ||
-                    glm::any(glm::greaterThanEqual(voxel, glm::ivec3(resolution))))
+                if (!brush.part || brush.part->contains({x, y, z}))
                 {
-                    continue;
-                }
-                const std::uint64_t code = oracle::mortonEncode(glm::uvec3(voxel));
-                const auto found = m_voxels.find(code);
-                bool is_changed = false;
-                if (brush.action == BrushAction::Carve)
-                {
-                    is_changed = m_voxels.erase(code) != 0;
-                }
-                else if (brush.action == BrushAction::Fill && found == m_voxels.end())
-                {
-                    Cell made = {m_grid.nodeLevels(), code, {}, 0};
-                    if (m_attributes)
-                    {
-                        made.attribute = {color, normalCode(outwards(brush, away))};
-                        made.emission = emission;
-                    }
-                    m_voxels[code] = made;
-                    is_changed = true;
-                }
-                else if (brush.action == BrushAction::Paint && found != m_voxels.end() && m_attributes)
-                {
-                    found->second.attribute.color = color;
-                    found->second.emission = emission;
-                    is_changed = true;
-                }
-                if (is_changed)
-                {
-                    m_changed.insert(code >> 6);
+                    apply(brush, {x, y, z}, emits);
                 }
             }
         }
     }
+}
+
+void EditModel::apply(const Brush& brush, const glm::ivec3& voxel, bool emits)
+{
+    // kEmission in RGB9E5, by hand: its exponent is 17, so a mantissa of 128 is 1.
+    const std::uint32_t emission = emits && brush.emission == kEmission ? 256U | 64U << 9 | 32U << 18 | 17U << 27 : 0U;
+    const std::uint32_t color = brush.color | (emission != 0 ? gpu::kAttributeEmissive << 24 : 0U);
+    const std::uint64_t code = oracle::mortonEncode(glm::uvec3(voxel));
+    const std::optional<Cell> look = brush.stamp ? stamped(*brush.stamp, voxel, code & 63U) : std::nullopt;
+    if (brush.stamp != nullptr ? !look : !isUnder(brush, voxel))
+    {
+        return;
+    }
+    const auto found = m_voxels.find(code);
+    const bool is_there = found != m_voxels.end();
+    if (brush.action == BrushAction::Carve)
+    {
+        if (m_voxels.erase(code) == 0)
+        {
+            return;
+        }
+    }
+    else if (brush.action == BrushAction::Fill ? is_there && (!look || !m_attributes) : !is_there || !m_attributes)
+    {
+        return;
+    }
+    else
+    {
+        Cell& cell = m_voxels[code];
+        cell.level = m_grid.nodeLevels();
+        cell.code = code;
+        cell.emission = look ? look->emission : m_attributes ? emission : 0;
+        if (m_attributes && look)
+        {
+            cell.attribute = look->attribute;
+        }
+        else if (m_attributes)
+        {
+            const glm::ivec3 direction = outwards(brush, voxel);
+            const std::uint32_t made = direction == glm::ivec3(0) ? gpu::kNoNormal : normalCode(direction);
+            cell.attribute = {color, is_there ? cell.attribute.normal : made};
+        }
+    }
+    m_changed.insert(code >> 6);
 }
 
 EditModel EditModel::merged(MergeRule rule, const std::vector<Cell>& moving, const std::vector<Cell>& all) const

@@ -41,6 +41,8 @@ public:
     [[nodiscard]] std::vector<Cell> cells() const;
 
 private:
+    void apply(const Brush& brush, const glm::ivec3& voxel, bool emits);
+
     Grid m_grid;
     bool m_attributes;
     std::map<std::uint64_t, Cell> m_voxels; // by code

@@ -149,6 +149,9 @@ public:
     bool undoEdit(vk::FrameGraph& graph);
     bool redoEdit(vk::FrameGraph& graph);
 
+    /// Drops the strokes that could be redone.
+    void dropRedoneStrokes() { m_edits.dropRedo(); }
+
     /// Drops strokes that have changed nothing from the history (Edits::dropUnchanged()). What is shown stays the same.
     std::size_t dropUnchangedStrokes() { return m_edits.dropUnchanged(); }
 

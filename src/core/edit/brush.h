@@ -1,10 +1,15 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "core/base/grid.h"
+#include "core/edit/voxel_box.h"
 #include "edit/edit.h"
 #include "zvo/types.h"
 
 #include <cstdint>
+#include <memory>
+#include <optional>
+#include <vector>
 
 namespace zvo
 {
@@ -14,6 +19,15 @@ static_assert(static_cast<gpu::uint>(BrushShape::Box) == gpu::kBrushBox);
 static_assert(static_cast<gpu::uint>(BrushAction::Carve) == gpu::kBrushCarve);
 static_assert(static_cast<gpu::uint>(BrushAction::Fill) == gpu::kBrushFill);
 static_assert(static_cast<gpu::uint>(BrushAction::Paint) == gpu::kBrushPaint);
+
+inline constexpr int kLeafEdge = 4; // voxels
+
+/// Voxels that have looks of their own, at a place of a grid (shaders/edit/edit.h).
+struct Stamp
+{
+    VoxelBox box;                     // in the grid
+    std::vector<std::uint32_t> words; // [gpu::kStampWords for each leaf that the box touches]
+};
 
 /// A dab of a brush on the voxels of a grid.
 struct Brush
@@ -26,17 +40,33 @@ struct Brush
     /// Fill, Paint: radiance, linear, at most 65408 times the tree's emission scale. Of trees without emission it has
     /// no effect.
     gpu::vec3 emission{0.0F};
+    gpu::ivec3 span{0}; // BrushShape::Box: it reaches as far as a box around center + span does
+    std::optional<VoxelBox> part = std::nullopt;  // only what is in it
+    std::shared_ptr<const Stamp> stamp = nullptr; // in place of a shape: Fill makes its voxels, whatever was there,
+                                                  // Carve takes voxels where it has some
 
     bool operator==(const Brush&) const = default;
 
-    /// Whether a voxel is under the brush.
+    /// The voxels that it may cover, in the grid or not.
+    [[nodiscard]] VoxelBox box() const
+    {
+        const VoxelBox ends = VoxelBox::of(center, center + span);
+        const auto reach = static_cast<int>(radius);
+        return stamp != nullptr ? stamp->box : VoxelBox{ends.lo - reach, ends.hi + reach};
+    }
+
+    /// Whether a voxel is under a brush without stamp and part.
     [[nodiscard]] bool covers(const gpu::ivec3& voxel) const
     {
         const gpu::ivec3 away = glm::abs(voxel - center);
         const auto reach = static_cast<int>(radius);
         const bool is_in_sphere = away.x * away.x + away.y * away.y + away.z * away.z <= reach * (reach + 1);
-        return glm::max(away.x, glm::max(away.y, away.z)) <= reach && (shape == BrushShape::Box || is_in_sphere);
+        return box().contains(voxel) && (shape == BrushShape::Box || is_in_sphere);
     }
 };
+
+/// The brush as parts that dabs take: each at most 2 * kBrushRadiusMax voxels long where the brush is longer than a dab
+/// may be. Nothing where it does not reach the grid.
+std::vector<Brush> partsOf(const Brush& brush, const Grid& grid);
 
 } // namespace zvo

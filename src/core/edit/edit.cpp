@@ -8,9 +8,6 @@
 #include "edit/compact.h"
 #include "octree/octree.h"
 #include "update/update.h"
-#include "zvo/error.h"
-
-#include <fmt/format.h>
 
 #include <algorithm>
 #include <vector>
@@ -24,11 +21,11 @@ namespace
 // tree: which is edited.
 gpu::Brush gpuBrush(const Brush& brush, const DeviceTree& tree)
 {
+    const VoxelBox box = brush.box();
+    const auto shape = static_cast<gpu::uint>(brush.stamp != nullptr ? BrushShape::Box : brush.shape);
+    const auto action = static_cast<gpu::uint>(brush.action);
     const bool emits = tree.emission_words.count() != 0 && brush.emission != gpu::vec3(0.0F);
-    return {brush.center,
-            brush.radius,
-            static_cast<gpu::uint>(brush.shape),
-            static_cast<gpu::uint>(brush.action),
+    return {box.lo, box.hi, shape | action << gpu::kBrushActionShift,
             (brush.color & 0xFFFFFFU) | (emits ? gpu::kAttributeEmissive << 24U : 0U),
             emits ? encodeRgb9e5(brush.emission / tree.emission_scale) : 0U};
 }
@@ -38,37 +35,37 @@ gpu::Ptr<gpu::BeforeChild> ranksOf(vk::AnyPass& pass, DeviceTree& tree)
     return {pass.readWrite(tree.overlays.ranks).address - tree.overlays.ranksSkipped()};
 }
 
-std::uint32_t levelCells(const gpu::EditBox& box, std::uint32_t level)
+// Finds the cells of a dab, and what it does to leaves. stamp: empty without one.
+void recordFind(vk::FrameGraph& graph, const DeviceTree& tree, const gpu::EditSlots& slots, const gpu::Brush& brush,
+                const DabExtent& extent, const vk::BufferOf<gpu::uint>& stamp, DabBuffers& buffers)
 {
-    const std::uint32_t shift = 2 * (box.level_count - level);
-    const gpu::uvec3 size = (box.hi >> shift) - (box.lo >> shift) + 1U;
-    return size.x * size.y * size.z;
+    vk::Pass pass = graph.addPass(gpu::edit::Find{.entries_per_word = tree.entriesPerWord(),
+                                                  .attributes = tree.hasNodeAttributes(),
+                                                  .stamp = stamp.count() != 0});
+    gpu::EditFindParams params{};
+    params.nodes = pass.read(tree.nodes);
+    if (tree.overlays.hasRanks())
+    {
+        readRankSource(pass, tree, params);
+    }
+    params.ranks = {pass.read(tree.overlays.ranks).address - tree.overlays.ranksSkipped()};
+    params.cells = pass.write(buffers.cells);
+    params.stamp = pass.read(stamp);
+    params.slots = slots;
+    params.brush = brush;
+    params.box = extent.box;
+    pass.dispatch(extent.cell_count, params);
 }
 
 // Everything but attributes.
 void recordNodes(vk::FrameGraph& graph, EditSite& site, const gpu::Brush& brush, const DabExtent& extent,
-                 const DabSlots& dab, DabBuffers& buffers)
+                 const DabSlots& dab, const vk::BufferOf<gpu::uint>& stamp, DabBuffers& buffers)
 {
     DeviceTree& tree = site.tree;
     const gpu::EditSlots slots = {site.region.first_node, dab.from, dab.to};
     const bool attributes = tree.hasNodeAttributes();
     const bool emits = tree.emission_words.count() != 0;
-    {
-        vk::Pass pass =
-            graph.addPass(gpu::edit::Find{.entries_per_word = tree.entriesPerWord(), .attributes = attributes});
-        gpu::EditFindParams params{};
-        params.nodes = pass.read(tree.nodes);
-        if (tree.overlays.hasRanks())
-        {
-            readRankSource(pass, tree, params);
-        }
-        params.ranks = {pass.read(tree.overlays.ranks).address - tree.overlays.ranksSkipped()};
-        params.cells = pass.write(buffers.cells);
-        params.slots = slots;
-        params.brush = brush;
-        params.box = extent.box;
-        pass.dispatch(extent.cell_count, params);
-    }
+    recordFind(graph, tree, slots, brush, extent, stamp, buffers);
     {
         const std::uint32_t threads = loneGroupOn(graph.device());
         vk::Pass pass = graph.addPass(gpu::edit::Allocate{.attributes = attributes, .local_size_x = threads});
@@ -108,16 +105,18 @@ void recordNodes(vk::FrameGraph& graph, EditSite& site, const gpu::Brush& brush,
 // Parameters of edit/voxels or edit/emission.
 template <typename Kernel>
 void recordVoxelPass(vk::FrameGraph& graph, const Kernel& kernel, EditSite& site, const gpu::Brush& brush,
-                     const DabExtent& extent, std::uint32_t to, DabBuffers& buffers)
+                     const DabExtent& extent, std::uint32_t to, const vk::BufferOf<gpu::uint>& stamp,
+                     DabBuffers& buffers)
 {
     vk::Pass pass = graph.addPass(kernel);
-    pass.dispatch(std::uint64_t{extent.cell_count - extent.inner_count} * gpu::kEditGroup,
+    pass.dispatch(std::uint64_t{extent.leafCount()} * gpu::kEditGroup,
                   {.nodes = pass.read(site.tree.nodes),
                    .cells = pass.read(buffers.cells),
                    .states = pass.read(site.states),
                    .attributes = pass.readWrite(site.tree.voxel_attributes),
                    .emission_words = pass.readWrite(site.tree.emission_words),
                    .emission = pass.readWrite(site.tree.emission),
+                   .stamp = pass.read(stamp),
                    .to = to,
                    .inner_count = extent.inner_count,
                    .brush = brush,
@@ -129,7 +128,7 @@ void averageChanged(vk::FrameGraph& graph, EditSite& site, const DabExtent& exte
                     const vk::BufferOf<gpu::SceneView>& tables, DabBuffers& buffers)
 {
     const std::uint32_t lanes = lanesOn(graph.device());
-    const std::uint32_t leaf_count = extent.cell_count - extent.inner_count;
+    const std::uint32_t leaf_count = extent.leafCount();
     std::uint32_t level_count = extent.box.level_count;
     if (leaf_count > gpu::kFewLeaves)
     {
@@ -159,13 +158,16 @@ void averageChanged(vk::FrameGraph& graph, EditSite& site, const DabExtent& exte
 }
 
 void recordAttributes(vk::FrameGraph& graph, EditSite& site, const gpu::Brush& brush, const DabExtent& extent,
-                      const DabSlots& slots, const vk::BufferOf<gpu::SceneView>& tables, DabBuffers& buffers)
+                      const DabSlots& slots, const vk::BufferOf<gpu::SceneView>& tables,
+                      const vk::BufferOf<gpu::uint>& stamp, DabBuffers& buffers)
 {
     const bool emits = site.tree.emission_words.count() != 0;
-    recordVoxelPass(graph, gpu::edit::Voxels{.emits = emits}, site, brush, extent, slots.to, buffers);
+    const bool has_stamp = stamp.count() != 0;
+    recordVoxelPass(graph, gpu::edit::Voxels{.emits = emits, .stamp = has_stamp}, site, brush, extent, slots.to, stamp,
+                    buffers);
     if (emits)
     {
-        recordVoxelPass(graph, gpu::edit::Emission{}, site, brush, extent, slots.to, buffers);
+        recordVoxelPass(graph, gpu::edit::Emission{.stamp = has_stamp}, site, brush, extent, slots.to, stamp, buffers);
     }
     averageChanged(graph, site, extent, slots.to, tables, buffers);
 }
@@ -234,31 +236,6 @@ void clearEmission(vk::FrameGraph& graph, EditSite& site, const OverlayRegion& r
 
 } // namespace
 
-std::optional<DabExtent> DabExtent::of(const Brush& brush, const Grid& grid)
-{
-    if (brush.radius > gpu::kBrushRadiusMax)
-    {
-        throw Error(ErrorCode::Usage, fmt::format("a brush's radius is at most {} voxels", gpu::kBrushRadiusMax));
-    }
-    using Wide = glm::vec<3, std::int64_t>;
-    const Wide lo = glm::max(Wide(brush.center) - std::int64_t{brush.radius}, Wide(0));
-    const Wide hi = glm::min(Wide(brush.center) + std::int64_t{brush.radius}, Wide(grid.resolution() - 1));
-    if (glm::any(glm::greaterThan(lo, hi)))
-    {
-        return std::nullopt;
-    }
-    DabExtent extent;
-    extent.box = {gpu::uvec3(lo), gpu::uvec3(hi), grid.nodeLevels()};
-    for (std::uint32_t level = 0; level < extent.box.level_count; ++level)
-    {
-        extent.inner_count = extent.cell_count;
-        extent.cell_count += levelCells(extent.box, level);
-    }
-    extent.node_bound = 64 * extent.inner_count;
-    extent.voxel_bound = 64 * (extent.cell_count - extent.inner_count) + kVoxelBlock - 1;
-    return extent;
-}
-
 DabBuffers::DabBuffers(vk::Device& device, std::uint32_t cell_count) : cells(device, "edit/cells", cell_count) {}
 
 CompactBuffers::CompactBuffers(vk::Device& device, const OverlayRegion& region)
@@ -294,14 +271,35 @@ void beginEdits(vk::FrameGraph& graph, EditSite& site)
 }
 
 void recordDab(vk::FrameGraph& graph, EditSite& site, const Brush& brush, const DabExtent& extent,
-               const DabSlots& slots, const vk::BufferOf<gpu::SceneView>& tables, DabBuffers& buffers)
+               const DabSlots& slots, const vk::BufferOf<gpu::SceneView>& tables, const vk::BufferOf<gpu::uint>& stamp,
+               DabBuffers& buffers)
 {
     const gpu::Brush dab = gpuBrush(brush, site.tree);
-    recordNodes(graph, site, dab, extent, slots, buffers);
+    recordNodes(graph, site, dab, extent, slots, stamp, buffers);
     if (site.tree.hasNodeAttributes())
     {
-        recordAttributes(graph, site, dab, extent, slots, tables, buffers);
+        recordAttributes(graph, site, dab, extent, slots, tables, stamp, buffers);
     }
+}
+
+void recordCopy(vk::FrameGraph& graph, const DeviceTree& tree, std::uint32_t root, const DabExtent& extent,
+                vk::BufferOf<gpu::uint>& words, DabBuffers& buffers)
+{
+    const gpu::Brush everything = {gpu::ivec3(extent.box.lo), gpu::ivec3(extent.box.hi),
+                                   gpu::kBrushBox | gpu::kBrushPaint << gpu::kBrushActionShift, 0};
+    recordFind(graph, tree, {root, 0, 0}, everything, extent, {}, buffers);
+    graph.fill(words, 0);
+    vk::Pass pass = graph.addPass(
+        gpu::edit::Copy{.attributes = tree.hasNodeAttributes(), .emits = tree.emission_words.count() != 0});
+    pass.dispatch(std::uint64_t{extent.leafCount()} * gpu::kEditGroup,
+                  {.nodes = pass.read(tree.nodes),
+                   .cells = pass.read(buffers.cells),
+                   .attributes = pass.read(tree.voxel_attributes),
+                   .emission_words = pass.read(tree.emission_words),
+                   .emission = pass.read(tree.emission),
+                   .stamp = pass.readWrite(words),
+                   .inner_count = extent.inner_count,
+                   .box = extent.box});
 }
 
 void recordCompaction(vk::FrameGraph& graph, EditSite& site, const OverlayRegion& to,

@@ -25,8 +25,10 @@ struct DabExtent
     std::uint32_t voxel_bound = 0; // voxels of the changed leaves at most, alignment included
 
     /// The extent of a dab. Nothing where the brush does not reach the grid. Throws Error{Usage} for a radius above
-    /// kBrushRadiusMax.
+    /// kBrushRadiusMax, and for more than gpu::kDabEdgeMax voxels along an axis.
     static std::optional<DabExtent> of(const Brush& brush, const Grid& grid);
+
+    [[nodiscard]] std::uint32_t leafCount() const { return cell_count - inner_count; }
 };
 
 /// The buffers that a dab needs while it runs.
@@ -60,10 +62,17 @@ struct DabSlots
 };
 
 /// Records a dab: slot `to` becomes slot `from` with the brush applied. tables: [1], for the tables of sRGB codes.
-/// Nothing is read back. Where the region has too little room, slot `to` becomes a copy of `from`, and
-/// EditState::failed is set. Cost: the cells of the brush's box, whatever the size of tree and grid.
+/// stamp: the words of the brush's stamp, empty without one. Nothing is read back. Where the region has too little
+/// room, slot `to` becomes a copy of `from`, and EditState::failed is set. Cost: the cells of the brush's box, whatever
+/// the size of tree and grid.
 void recordDab(vk::FrameGraph& graph, EditSite& site, const Brush& brush, const DabExtent& extent,
-               const DabSlots& slots, const vk::BufferOf<gpu::SceneView>& tables, DabBuffers& buffers);
+               const DabSlots& slots, const vk::BufferOf<gpu::SceneView>& tables, const vk::BufferOf<gpu::uint>& stamp,
+               DabBuffers& buffers);
+
+/// Records the copy of a box of an edited tree's voxels, without dynamic objects, to the words of a stamp. root: of the
+/// edited tree. words: [extent.leafCount() * gpu::kStampWords].
+void recordCopy(vk::FrameGraph& graph, const DeviceTree& tree, std::uint32_t root, const DabExtent& extent,
+                vk::BufferOf<gpu::uint>& words, DabBuffers& buffers);
 
 /// The buffers that a compaction needs while it runs.
 struct CompactBuffers

@@ -9,7 +9,7 @@ namespace zvo
 
 EditHistory::EditHistory(std::size_t entries_max)
     : m_entries_max(std::max<std::size_t>(entries_max, 1)), m_tops(m_entries_max + 2 + kDabsPerFrameMax),
-      m_dabs(m_tops.size()), m_is_unchanged(m_tops.size())
+      m_dabs(m_tops.size()), m_is_unchanged(m_tops.size()), m_strokes(m_tops.size())
 {
     for (std::uint32_t slot = 1; slot < m_tops.size(); ++slot)
     {
@@ -38,12 +38,14 @@ std::uint32_t EditHistory::push(std::uint64_t node_bound, std::uint64_t voxel_bo
     const EditTop from = topAbove(kept);
     const EditTop top = {from.nodes + node_bound, from.voxels + voxel_bound, from.voxel_count, false};
     const Dab dab = {slot(), kept, !m_is_stroke};
+    m_stroke_count += m_is_stroke ? 0 : 1;
     dropRedo();
     const std::uint32_t to = m_free.front();
     m_free.pop_front();
     m_tops[to] = top;
     m_dabs[to] = dab;
     m_is_unchanged[to] = false;
+    m_strokes[to] = m_stroke_count;
     m_line.push_back(to);
     if (m_is_stroke)
     {

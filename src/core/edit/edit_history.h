@@ -68,6 +68,14 @@ public:
     [[nodiscard]] std::size_t undoCount() const { return m_current; }
     [[nodiscard]] std::size_t redoCount() const { return m_line.size() - 1 - m_current; }
 
+    /// Numbers of strokes grow in the order in which strokes began. That of the current entry's stroke, or 0; and of
+    /// the one that redo() goes to, or the largest number.
+    [[nodiscard]] std::uint64_t stroke() const { return m_strokes[slot()]; }
+    [[nodiscard]] std::uint64_t nextStroke() const
+    {
+        return redoCount() != 0 ? m_strokes[m_line[m_current + 1]] : UINT64_MAX;
+    }
+
     /// Drops the older half of the entries that can be undone, at least one. False if there is none.
     bool dropOldest();
 
@@ -110,6 +118,8 @@ private:
     std::vector<EditTop> m_tops;            // of slots
     std::vector<std::optional<Dab>> m_dabs; // of slots; nothing: the device has reported, or the slot has moved
     std::vector<bool> m_is_unchanged;       // of slots: known to show what was there before the stroke
+    std::vector<std::uint64_t> m_strokes;   // of slots: numbers
+    std::uint64_t m_stroke_count = 0;
 };
 
 } // namespace zvo

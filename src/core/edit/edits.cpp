@@ -30,6 +30,32 @@ OverlayRegion regionOf(std::uint64_t nodes, std::uint64_t voxels)
             static_cast<std::uint32_t>(divideUp(voxels, kVoxelBlock) * kVoxelBlock)};
 }
 
+// The words of the brush's stamp for the leaves of a dab, which may be a part of those of the stamp.
+vk::BufferOf<gpu::uint> stampFor(vk::Device& device, const Brush& brush, const DabExtent& extent)
+{
+    if (brush.stamp == nullptr)
+    {
+        return {};
+    }
+    vk::BufferOf<gpu::uint> buffer(device, "edit/stamp", std::uint64_t{extent.leafCount()} * gpu::kStampWords,
+                                   vk::MemoryKind::Upload);
+    const glm::ivec3 stamp_lo = brush.stamp->box.lo / kLeafEdge;
+    const glm::ivec3 stamp_size = brush.stamp->box.hi / kLeafEdge - stamp_lo + 1;
+    const glm::ivec3 lo = glm::ivec3(extent.box.lo) / kLeafEdge - stamp_lo;
+    const glm::ivec3 hi = glm::ivec3(extent.box.hi) / kLeafEdge - stamp_lo;
+    gpu::uint* to = buffer.mappedData();
+    for (int z = lo.z; z <= hi.z; ++z)
+    {
+        for (int y = lo.y; y <= hi.y; ++y)
+        {
+            const std::int64_t first = lo.x + std::int64_t{stamp_size.x} * (y + std::int64_t{stamp_size.y} * z);
+            to = std::copy_n(brush.stamp->words.begin() + first * gpu::kStampWords,
+                             std::int64_t{hi.x - lo.x + 1} * gpu::kStampWords, to);
+        }
+    }
+    return buffer;
+}
+
 } // namespace
 
 Edits::Edits(vk::Device& device, OverlayBuffers& overlays, RootHistory& regions, const HistoryBounds& bounds,
@@ -133,12 +159,13 @@ bool Edits::tryDab(vk::FrameGraph& graph, const Brush& brush, const DabExtent& e
         }
         m_buffers = std::move(larger);
     }
+    const vk::BufferOf<gpu::uint>& stamp = m_deletion_queue.keep(stampFor(m_device, brush, extent));
     DabSlots slots = {.from = m_now.history.slot(), .kept = keptSlot()};
     slots.to = m_now.history.push(extent.node_bound, attributes ? extent.voxel_bound : 0, slots.kept);
     m_now.is_compact = false;
     m_has_written = true;
     EditSite where = site();
-    recordDab(graph, where, brush, extent, slots, tables, *m_buffers);
+    recordDab(graph, where, brush, extent, slots, tables, stamp, *m_buffers);
     report(graph, slots.to, 1);
     return true;
 }
@@ -273,6 +300,12 @@ bool Edits::redo()
 {
     saveFrame();
     return m_now.history.redo();
+}
+
+void Edits::dropRedo()
+{
+    saveFrame();
+    m_now.history.dropRedo();
 }
 
 std::size_t Edits::dropUnchanged()

@@ -43,6 +43,13 @@ public:
     bool undo();
     bool redo();
 
+    /// Drops the strokes that could be redone.
+    void dropRedo();
+
+    /// As EditHistory has them.
+    [[nodiscard]] std::uint64_t stroke() const { return m_now.history.stroke(); }
+    [[nodiscard]] std::uint64_t nextStroke() const { return m_now.history.nextStroke(); }
+
     /// Drops the entries of finished strokes that have changed nothing, as far as the device has reported, and returns
     /// their number. Not between beginFrame() and the end of the frame's submission.
     std::size_t dropUnchanged();

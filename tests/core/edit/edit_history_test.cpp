@@ -76,6 +76,26 @@ TEST(EditHistory, ADabAfterUndoLeavesRoomToWhatIsKept)
     EXPECT_EQ(history.topAbove(history.slot()).nodes, history.top(history.slot()).nodes);
 }
 
+TEST(EditHistory, StrokesKeepTheirNumbers)
+{
+    EditHistory history(4);
+    EXPECT_EQ(history.stroke(), 0U);
+    EXPECT_EQ(history.nextStroke(), UINT64_MAX);
+    for (int stroke = 0; stroke < 3; ++stroke)
+    {
+        history.push(10, 0);
+        history.push(10, 0); // of the same stroke
+        history.endStroke();
+    }
+    EXPECT_EQ(history.stroke(), 3U);
+    history.undo();
+    history.undo();
+    EXPECT_EQ(history.stroke(), 1U);
+    EXPECT_EQ(history.nextStroke(), 2U);
+    history.push(10, 0);
+    EXPECT_EQ(history.stroke(), 4U);
+}
+
 TEST(EditHistory, TheOldestEntryFallsOff)
 {
     EditHistory history(2);

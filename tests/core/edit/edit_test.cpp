@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // A brush on voxels, case by case.
+#include "core/edit/voxel_clip.h"
 #include "support/dynamic_updates.h"
 #include "support/edit_machine.h"
 #include "support/engine_device.h"
@@ -8,6 +9,7 @@
 
 #include <gtest/gtest.h>
 
+#include <memory>
 #include <string>
 #include <string_view>
 
@@ -57,6 +59,77 @@ TEST(Edit, ExtentIsWhatTheBrushReachesOfTheGrid)
     EXPECT_FALSE(DabExtent::of({.center = {1, 16, 41}, .radius = 9}, grid));
     EXPECT_FALSE(DabExtent::of({.center = gpu::ivec3(INT32_MIN), .radius = 9}, grid));
     EXPECT_THROW((void)DabExtent::of({.radius = gpu::kBrushRadiusMax + 1}, grid), Error);
+}
+
+TEST(Edit, ALongBoxIsSeveralDabs)
+{
+    const Grid grid{.origin = {}, .voxel_size = 1.0F, .depth = 9};
+    const Brush box = {.shape = BrushShape::Box, .center = {500, 7, 9}, .radius = 2, .span = {-490, 0, 3}};
+    EXPECT_THROW((void)DabExtent::of(box, grid), Error);
+    std::uint64_t volume = 0;
+    for (const Brush& part : partsOf(box, grid))
+    {
+        const VoxelBox reach = {glm::ivec3(DabExtent::of(part, grid)->box.lo),
+                                glm::ivec3(DabExtent::of(part, grid)->box.hi)};
+        volume += reach.volume();
+    }
+    EXPECT_EQ(volume, std::uint64_t{495} * 5 * 8);
+    EXPECT_TRUE(partsOf({.center = {-5, 0, 0}, .radius = 4}, grid).empty());
+}
+
+// Along x and y a code's coordinate changes its sign; along z it is folded to the other side.
+TEST(VoxelClip, AMirrorTurnsPlacesAndNormals)
+{
+    VoxelClip clip({4, 2, 3});
+    const auto code = [](int x, int y)
+    { return (static_cast<std::uint32_t>(x) & 0xFFFFU) | static_cast<std::uint32_t>(y) << 16; };
+    clip.set({0, 1, 1}, ClipVoxel{{7, code(10000, 5000)}, 3}); // z is 17767
+    clip.set({3, 0, 2}, ClipVoxel{{8, gpu::kNoNormal}, 0});
+    const VoxelClip x = clip.mirrored(0);
+    EXPECT_EQ(x.at({3, 1, 1}), (ClipVoxel{{7, code(-10000, 5000)}, 3}));
+    EXPECT_EQ(x.at({0, 0, 2}), (ClipVoxel{{8, gpu::kNoNormal}, 0}));
+    EXPECT_EQ(clip.mirrored(1).at({0, 0, 1}), (ClipVoxel{{7, code(10000, -5000)}, 3}));
+    EXPECT_EQ(clip.mirrored(2).at({0, 1, 1}), (ClipVoxel{{7, code(32767 - 5000, 32767 - 10000)}, 3}));
+    for (const glm::length_t axis : {0, 1, 2})
+    {
+        const VoxelClip twice = clip.mirrored(axis).mirrored(axis);
+        EXPECT_EQ(twice.at({0, 1, 1}), clip.at({0, 1, 1}));
+        EXPECT_EQ(twice.voxelCount(), 2U);
+    }
+}
+
+TEST(VoxelClip, AStampHasWhatTheGridHasOfIt)
+{
+    const Grid grid{.origin = {}, .voxel_size = 1.0F, .depth = 5};
+    VoxelClip clip({3, 3, 3});
+    clip.set({0, 0, 0}, ClipVoxel{{1, 2}, 3});
+    clip.set({2, 1, 0}, ClipVoxel{{4, 5}, 6});
+    const std::shared_ptr<const Stamp> cut = clip.stampAt({-1, 6, 9}, grid);
+    ASSERT_NE(cut, nullptr);
+    EXPECT_EQ(cut->box, (VoxelBox{{0, 6, 9}, {1, 8, 11}}));
+    const VoxelClip left(*cut);
+    EXPECT_EQ(left.voxelCount(), 1U);
+    EXPECT_EQ(left.at({1, 1, 0}), (ClipVoxel{{4, 5}, 6}));
+    EXPECT_EQ(clip.stampAt({-3, 0, 0}, grid), nullptr);
+    EXPECT_EQ(clip.stampAt({-1, 31, 0}, grid), nullptr) << "no voxel of it is inside";
+}
+
+TEST(VoxelClip, AFloodGoesThroughNeighboursOfNearlyTheSameColour)
+{
+    VoxelClip clip({8, 8, 8});
+    const auto gray = [](std::uint32_t level) { return ClipVoxel{{level * 0x010101U, 0}, 0}; };
+    clip.set({1, 1, 1}, gray(100));
+    clip.set({2, 2, 2}, gray(110)); // by a corner
+    clip.set({3, 2, 2}, gray(90));
+    clip.set({4, 2, 2}, gray(111)); // too bright
+    clip.set({5, 2, 2}, gray(100));
+    const Flood flood = floodFrom(clip, {1, 1, 1}, 10);
+    EXPECT_EQ(flood.voxels.voxelCount(), 3U);
+    EXPECT_TRUE(flood.voxels.at({3, 2, 2}));
+    EXPECT_EQ(flood.reached, (VoxelBox{{1, 1, 1}, {3, 2, 2}}));
+    EXPECT_EQ(floodFrom(clip, {1, 1, 1}, 11).voxels.voxelCount(), 5U);
+    EXPECT_EQ(floodFrom(clip, {0, 1, 1}, 11).voxels.voxelCount(), 0U);
+    EXPECT_TRUE(floodFrom(clip, {0, 1, 1}, 11).reached.isEmpty());
 }
 
 // The tree is empty at first, so that all voxels are the brush's.
