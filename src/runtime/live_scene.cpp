@@ -120,24 +120,62 @@ void LiveScene::updateObjects(vk::FrameGraph& graph, double seconds)
     m_trouble.clear();
 }
 
+// Records a dab. Returns false if it has to be tried again in a later frame.
+bool LiveScene::recordDab(vk::FrameGraph& graph, const Brush& brush)
+{
+    const std::uint64_t before = edits()->stroke();
+    const bool is_done = m_dynamic->edit(graph, brush);
+    if (edits()->stroke() != before)
+    {
+        m_moves.dropRedo();
+    }
+    return is_done;
+}
+
+void LiveScene::undo(vk::FrameGraph& graph)
+{
+    m_dynamic->endStroke();
+    if (const std::optional<ObjectMove> move = m_moves.undo(edits()->undoCount() != 0 ? edits()->stroke() : 0))
+    {
+        return setOffset(move->object, move->from);
+    }
+    m_dynamic->undoEdit(graph);
+}
+
+void LiveScene::redo(vk::FrameGraph& graph)
+{
+    m_dynamic->endStroke();
+    if (const std::optional<ObjectMove> move = m_moves.redo(edits()->nextStroke()))
+    {
+        return setOffset(move->object, move->to);
+    }
+    m_dynamic->redoEdit(graph);
+}
+
 // Records a request. Returns false if it has to be tried again in a later frame.
 bool LiveScene::record(vk::FrameGraph& graph, const EditRequest& request)
 {
     if (const auto* const brush = std::get_if<Brush>(&request))
     {
-        return m_dynamic->edit(graph, *brush);
+        return recordDab(graph, *brush);
     }
-    if (std::holds_alternative<EndStroke>(request))
+    if (const auto* const move = std::get_if<ObjectMove>(&request))
+    {
+        m_dynamic->endStroke();
+        m_dynamic->dropRedoneStrokes();
+        m_moves.add(*move, edits()->stroke());
+    }
+    else if (std::holds_alternative<EndStroke>(request))
     {
         m_dynamic->endStroke();
     }
     else if (std::holds_alternative<UndoStroke>(request))
     {
-        m_dynamic->undoEdit(graph);
+        undo(graph);
     }
     else
     {
-        m_dynamic->redoEdit(graph);
+        redo(graph);
     }
     return true;
 }
@@ -170,6 +208,7 @@ void LiveScene::recordRequests(vk::FrameGraph& graph)
 void LiveScene::update(vk::FrameGraph& graph, double seconds)
 {
     m_recorded.clear();
+    m_moves_before = m_moves;
     recordRequests(graph);
     if (moves() || (canEdit() && m_dynamic->needsUpdate()))
     {
@@ -250,6 +289,7 @@ void LiveScene::frameLost()
     if (canEdit())
     {
         m_dynamic->frameLost();
+        m_moves = m_moves_before;
     }
     m_requests.insert(m_requests.begin(), m_recorded.begin(), m_recorded.end());
     m_recorded.clear();

@@ -4,6 +4,8 @@
 #include "core/dynamic/dynamic_octree.h"
 #include "core/tree/tree_data.h"
 #include "io/scene/animated_scene.h"
+#include "runtime/copy_voxels.h"
+#include "runtime/object_moves.h"
 #include "runtime/static_part.h"
 
 #include <cstddef>
@@ -43,8 +45,9 @@ struct RedoStroke
 {
 };
 
-/// What a brush is to do: a dab of the stroke that is under way or of a new one, the end of a stroke, undo, or redo.
-using EditRequest = std::variant<Brush, EndStroke, UndoStroke, RedoStroke>;
+/// What is to be edited: a dab of the stroke that is under way or of a new one, the end of a stroke, an object that has
+/// been moved by setOffset(), undo, or redo of the last stroke or move.
+using EditRequest = std::variant<Brush, EndStroke, ObjectMove, UndoStroke, RedoStroke>;
 
 /// Counts and sizes of a LiveScene.
 struct LiveInfo
@@ -116,6 +119,23 @@ public:
     /// The edits: which strokes can be undone, and how much memory they hold. Null if the scene cannot be edited.
     [[nodiscard]] const Edits* edits() const { return m_dynamic ? &m_dynamic->edits() : nullptr; }
 
+    /// How many strokes and moves of objects can be undone and redone; 0 if the scene cannot be edited.
+    [[nodiscard]] std::size_t undoCount() const { return canEdit() ? edits()->undoCount() + m_moves.undoCount() : 0; }
+    [[nodiscard]] std::size_t redoCount() const { return canEdit() ? edits()->redoCount() + m_moves.redoCount() : 0; }
+
+    /// Grows with every dab and every move of an object.
+    [[nodiscard]] std::uint64_t changeCount() const
+    {
+        return canEdit() ? edits()->changeCount() + m_moves.changeCount() : 0;
+    }
+
+    /// Copies the voxels of a box, without dynamic objects, as requests that were recorded have made them. Waits. Only
+    /// for scenes that can be edited. Throws Error{Memory}.
+    [[nodiscard]] VoxelClip copyVoxels(const VoxelBox& box) const
+    {
+        return zvo::copyVoxels(m_device, tree(), m_dynamic->editedRoot(), box);
+    }
+
     /// Drops strokes that have changed nothing from the history, once that is known, and returns their number. Not
     /// between beginFrame() and the end of the frame's submission.
     std::size_t dropUnchangedStrokes() { return m_dynamic ? m_dynamic->dropUnchangedStrokes() : 0; }
@@ -144,6 +164,9 @@ public:
 private:
     void recordRequests(vk::FrameGraph& graph);
     bool record(vk::FrameGraph& graph, const EditRequest& request);
+    bool recordDab(vk::FrameGraph& graph, const Brush& brush);
+    void undo(vk::FrameGraph& graph);
+    void redo(vk::FrameGraph& graph);
     void updateObjects(vk::FrameGraph& graph, double seconds);
     [[nodiscard]] Pose poseOf(std::size_t object, double seconds) const;
     [[nodiscard]] bool isSettled() const;
@@ -157,8 +180,10 @@ private:
     std::vector<DynamicObjectId> m_objects; // in the order of the animated scene
     std::vector<glm::dvec3> m_offsets;      // of dynamic objects
     std::optional<double> m_shown_seconds;  // the time of the dynamic objects' poses
-    std::deque<EditRequest> m_requests;     // to be recorded
-    std::deque<EditRequest> m_recorded;     // requests that the last frame has recorded
+    ObjectMoves m_moves;
+    ObjectMoves m_moves_before;         // the last frame
+    std::deque<EditRequest> m_requests; // to be recorded
+    std::deque<EditRequest> m_recorded; // requests that the last frame has recorded
     std::string m_trouble;
 };
 

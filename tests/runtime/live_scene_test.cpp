@@ -60,7 +60,7 @@ std::vector<gpu::uint> staticWords(const DeviceTree& tree)
 }
 
 constexpr Grid kGrid64 = {.origin = glm::vec3(0.0F), .voxel_size = 0.25F, .depth = 6};
-constexpr Brush kCarve = {BrushShape::Sphere, BrushAction::Carve, gpu::ivec3(20, 20, 20), 9, 0};
+const Brush kCarve = {BrushShape::Sphere, BrushAction::Carve, gpu::ivec3(20, 20, 20), 9, 0};
 
 // A static box, and one that may move.
 AnimatedScene boxes(const glm::dvec3& offset)
@@ -116,6 +116,57 @@ TEST(LiveScene, PutsWhatMovesElsewhere)
     moved.settle(0);
     EXPECT_EQ(difference(moved, there), "");
     EXPECT_EQ(moved.shownPose(0).transforms, there.shownPose(0).transforms);
+}
+
+TEST(LiveScene, UndoesMovesAndStrokesInTheirOrder)
+{
+    LiveScene live(device(), boxes({}), kGrid64, {});
+    const glm::dvec3 first(1.0, 0, 0);
+    const glm::dvec3 second(0, 1.0, 0);
+    const auto move = [&](const glm::dvec3& to)
+    {
+        live.request(ObjectMove{0, live.offset(0), to});
+        live.setOffset(0, to);
+        live.settle(0);
+    };
+    const auto state = [&] { return std::tuple(live.offset(0).x, live.offset(0).y, live.edits()->undoCount()); };
+    move(first);
+    live.request(kCarve);
+    live.request(EndStroke{});
+    move(second);
+    const std::vector<std::tuple<double, double, std::size_t>> states = {{0, 1, 1}, {1, 0, 1}, {1, 0, 0}, {0, 0, 0}};
+    EXPECT_EQ(state(), states[0]);
+    EXPECT_EQ(live.undoCount(), 3U);
+    for (std::size_t i = 1; i < 5; ++i)
+    {
+        live.request(UndoStroke{});
+        live.settle(0);
+        EXPECT_EQ(state(), states[std::min<std::size_t>(i, 3)]) << i;
+    }
+    EXPECT_EQ(live.redoCount(), 3U);
+    for (std::size_t i = 3; i-- > 0;)
+    {
+        live.request(RedoStroke{});
+        live.settle(0);
+        EXPECT_EQ(state(), states[i]) << i;
+    }
+    for (int i = 0; i < 3; ++i)
+    {
+        live.request(UndoStroke{});
+    }
+    move(second);
+    EXPECT_EQ(live.undoCount(), 1U);
+    EXPECT_EQ(live.redoCount(), 0U) << "neither the moves nor the stroke";
+    live.request(UndoStroke{});
+    live.beginFrame();
+    device().run([&](vk::FrameGraph& graph) { live.update(graph, 0); });
+    live.frameLost(); // it is recorded again
+    live.settle(0);
+    EXPECT_EQ(live.undoCount(), 0U);
+    EXPECT_EQ(live.redoCount(), 1U);
+    live.request(kCarve);
+    live.settle(0);
+    EXPECT_EQ(live.redoCount(), 0U);
 }
 
 TEST(LiveScene, MergesNothingWithPackedAttributes)
