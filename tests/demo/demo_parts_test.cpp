@@ -94,7 +94,7 @@ TEST(Keys, PressesFindTheirRow)
     EXPECT_EQ(actionOf(Key::F12, {}), Action::Screenshot);
     EXPECT_EQ(actionOf(Key::F12, {true, false, false}), Action::ScreenshotOfPicture);
     EXPECT_EQ(actionOf(Key::F12, {}, false), Action::None);
-    EXPECT_EQ(actionOf(Key::V, {false, true, false}), Action::PasteCamera);
+    EXPECT_EQ(actionOf(Key::V, {false, true, false}), Action::Paste);
     EXPECT_EQ(actionOf(Key::V, {false, false, true}), Action::None);
     EXPECT_EQ(actionOf(Key::Digit1, {}), Action::RecallBookmark);
     EXPECT_EQ(actionOf(Key::Digit9, {false, true, false}), Action::StoreBookmark);

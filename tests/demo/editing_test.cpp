@@ -153,6 +153,91 @@ TEST_F(DemoEditing, TheColourIsThatUnderThePointerNow)
     EXPECT_EQ(shots[1], shots[0]) << "painted in its own colour";
 }
 
+// Which pixels two screenshots of 240 x 150 have in common.
+class Changes
+{
+public:
+    Changes(const Image& before, const Image& after) : m_before(before), m_after(after) {}
+
+    [[nodiscard]] bool at(std::size_t x, std::size_t y) const
+    {
+        const std::size_t first = 4 * (y * m_before.width + x);
+        return !std::equal(m_before.rgba.begin() + static_cast<std::ptrdiff_t>(first),
+                           m_before.rgba.begin() + static_cast<std::ptrdiff_t>(first + 3),
+                           m_after.rgba.begin() + static_cast<std::ptrdiff_t>(first));
+    }
+
+    /// How many there are from one point to another one.
+    [[nodiscard]] std::size_t within(std::size_t x0, std::size_t y0, std::size_t x1, std::size_t y1) const
+    {
+        std::size_t count = 0;
+        for (std::size_t y = y0; y < y1; ++y)
+        {
+            for (std::size_t x = x0; x < x1; ++x)
+            {
+                count += at(x, y) ? 1 : 0;
+            }
+        }
+        return count;
+    }
+
+private:
+    Image m_before;
+    Image m_after;
+};
+
+// The cube's front is a square of 140 units in the middle. Each edit is undone before the next one.
+TEST_F(DemoEditing, BoxesMirrorsFloodsAndTheSelectionAreEditsThatAreUndone)
+{
+    Script script;
+    script.press(1, Key::F12).press(2, Key::B).press(3, Key::O); // boxes
+    for (std::uint64_t i = 0; i < 7; ++i)
+    {
+        script.press(4 + 2 * i, Key::LeftBracket); // the radius is 1
+    }
+    std::uint64_t frame = 20;
+    const auto edit = [&](const std::vector<MouseMoveEvent>& points)
+    {
+        frame = drag(script, frame, points) + 3;
+        script.press(frame, Key::F12).press(frame + 2, Key::Z, kControl);
+        frame += 4;
+    };
+    edit({{80, 40}, {160, 60}}); // 2
+    script.press(frame, Key::X); // mirrors along x
+    edit({{80, 40}, {90, 60}});  // 3
+    script.press(frame, Key::X).press(frame + 2, Key::X).press(frame + 4, Key::X).press(frame + 6, Key::O);
+    script.press(frame + 8, Key::N).press(frame + 10, Key::N); // a flood that paints
+    frame += 12;
+    edit({{100, 50}}); // 4
+    script.press(frame, Key::O);
+    frame = drag(script, frame + 2, {{85, 45}, {105, 55}});
+    script.press(frame + 2, Key::F12).press(frame + 3, Key::T); // 5: painted
+    frame = drag(script, frame + 5, {{80, 40}, {110, 60}});
+    script.press(frame, Key::C, kControl).add(frame + 2, MouseMoveEvent{140, 100}).press(frame + 3, Key::V, kControl);
+    script.press(frame + 8, Key::F12);                                      // 6: pasted on the face
+    script.press(frame + 10, Key::Delete).press(frame + 14, Key::F12);      // 7: what was pasted is selected
+    script.press(frame + 16, Key::Z, kControl).press(frame + 18, Key::F12); // 8
+    script.press(frame + 20, Key::Z, kControl).press(frame + 22, Key::Z, kControl).press(frame + 24, Key::F12);
+    play(script, frame + 28, kCube + " --margin 8" + kFront);
+
+    const Image first = pixels(shotName(1));
+    const auto changes = [&](int number) { return Changes(first, pixels(shotName(number))); };
+    const Changes box = changes(2);
+    EXPECT_EQ(box.within(82, 42, 158, 58), 76U * 16U) << "all of the box";
+    EXPECT_EQ(box.within(0, 90, 240, 150), 0U);
+    const Changes mirrored = changes(3);
+    EXPECT_EQ(mirrored.within(82, 42, 88, 58), 6U * 16U);
+    EXPECT_EQ(mirrored.within(152, 42, 158, 58), 6U * 16U);
+    EXPECT_EQ(mirrored.within(100, 0, 140, 150), 0U);
+    EXPECT_GE(changes(4).within(70, 20, 170, 130), 2000U) << "a face's worth of one colour";
+    const Changes pasted(pixels(shotName(5)), pixels(shotName(6)));
+    EXPECT_GE(pasted.within(120, 80, 160, 120), 100U) << "the painted voxels";
+    EXPECT_EQ(pasted.within(70, 30, 110, 60), 0U) << "nothing where they were copied";
+    EXPECT_EQ(shot(7), shot(5));
+    EXPECT_EQ(shot(8), shot(6)) << "the deletion is undone";
+    EXPECT_EQ(shot(9), shot(1)) << "all is undone";
+}
+
 TEST_F(DemoEditing, WhatMovesGoesOnThroughWhatWasEdited)
 {
     // Four pictures: the first, carved, moved on, and undone; or the same without the stroke.
@@ -182,14 +267,17 @@ TEST_F(DemoEditing, WhatMovesGoesOnThroughWhatWasEdited)
 
 TEST_F(DemoEditing, TheHandDragsWhatMovesAndNothingElse)
 {
+    std::set<std::string> undone;
     const auto lastAfter = [&](const std::vector<MouseMoveEvent>& points)
     {
         Script script;
         script.press(1, Key::Space).press(2, Key::M);
         const std::uint64_t frame = drag(script, 4, points);
-        script.press(frame, Key::F12);
-        play(script, frame + 3, "moving.scene.json --camera 0,1,8,0,1,0,40 --time 0.5");
-        return takeShots(1).front();
+        script.press(frame, Key::F12).press(frame + 2, Key::Z, kControl).press(frame + 3, Key::F12);
+        play(script, frame + 6, "moving.scene.json --camera 0,1,8,0,1,0,40 --time 0.5");
+        const std::vector<std::string> shots = takeShots(2);
+        undone.insert(shots[1]);
+        return shots[0];
     };
     const std::string before = lastAfter({{5, 5}, {20, 20}, {40, 40}}); // the sky cannot be dragged
     std::set<std::string> pictures;
@@ -200,6 +288,7 @@ TEST_F(DemoEditing, TheHandDragsWhatMovesAndNothingElse)
     }
     EXPECT_TRUE(pictures.contains(before)) << "the cube, and nothing, cannot be dragged";
     EXPECT_GE(pictures.size(), 2U) << "the slab can";
+    EXPECT_EQ(undone, std::set{before}) << "and is taken back";
 }
 
 } // namespace

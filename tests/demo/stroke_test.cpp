@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Which voxels on the way of the pointer become dabs, when looks are answered late.
+#include "core/edit/voxel_clip.h"
 #include "demo/input/pointer_ray.h"
+#include "demo/world/mirror.h"
 #include "demo/world/stroke.h"
 
 #include <gtest/gtest.h>
@@ -124,6 +126,31 @@ TEST(Stroke, JoinsVoxelsThatAreFarFromEachOtherButNotOverAHoleOrAJump)
     EXPECT_EQ(stroke({glm::ivec3(0), std::nullopt, glm::ivec3(0, 9, 0)}), (Dabs{{0, 0, 0}, {0, 9, 0}}));
 }
 
+TEST(Stroke, ALineBeginsAtTheLastDabOfTheLastStroke)
+{
+    Stroke stroke;
+    LateAnswers answers(1, {.step = 5, .reach = 6});
+    answers.hole_begin = 41; // seen again from 60 on
+    answers.hole_end = 60;
+    stroke.press({0, 0}, true); // there is no last dab
+    stroke.move({50, 0});
+    stroke.release();
+    answers.finish(stroke);
+    const std::size_t before = answers.dabs.size();
+    stroke.press({50, 0}, true); // nothing is seen there
+    stroke.release();
+    answers.finish(stroke);
+    EXPECT_EQ(answers.dabs.size(), before);
+    stroke.press({80, 40}, true);
+    stroke.release();
+    answers.finish(stroke);
+    ASSERT_EQ(answers.dabs.size(), before + 3);
+    EXPECT_EQ(answers.dabs[before - 1], glm::ivec3(10, 0, 0));
+    EXPECT_EQ(answers.dabs[before], glm::ivec3(13, 3, 0));
+    EXPECT_EQ(answers.dabs.back(), glm::ivec3(20, 10, 0));
+    EXPECT_EQ(answers.ends, 3);
+}
+
 TEST(Stroke, AFrameLooksAtSoManyPointsAndTheNextOneGoesOn)
 {
     Stroke stroke;
@@ -174,6 +201,34 @@ TEST(Stroke, WhereNothingIsFoundThereIsNoDabButAnEnd)
     answers.finish(stroke);
     EXPECT_TRUE(answers.dabs.empty());
     EXPECT_EQ(answers.ends, 1);
+}
+
+TEST(Mirror, HasEachImageOnce)
+{
+    const Grid grid{.origin = {}, .voxel_size = 1.0F, .depth = 4};
+    using Voxels = std::vector<glm::ivec3>;
+    EXPECT_EQ(imagesOf(glm::ivec3(1, 2, 3), {}, grid), (Voxels{{1, 2, 3}}));
+    EXPECT_EQ(imagesOf(glm::ivec3(1, 2, 3), {.axes = {true, false, true}}, grid),
+              (Voxels{{1, 2, 3}, {14, 2, 3}, {1, 2, 12}, {14, 2, 12}}));
+    const Mirror through = {.axes = {true, false, false}, .at = glm::ivec3(4, 0, 0)};
+    EXPECT_EQ(imagesOf(glm::ivec3(1, 2, 3), through, grid), (Voxels{{1, 2, 3}, {7, 2, 3}}));
+    EXPECT_EQ(imagesOf(glm::ivec3(4, 2, 3), through, grid), (Voxels{{4, 2, 3}})) << "in the plane";
+    const Brush box = {.shape = BrushShape::Box, .center = {1, 2, 3}, .radius = 1, .span = {2, 1, 0}};
+    EXPECT_EQ(imagesOf(box, through, grid).at(1).box(), (VoxelBox{{4, 1, 2}, {8, 4, 4}}));
+}
+
+TEST(Mirror, AStampsImageStandsAtTheOtherSide)
+{
+    const Grid grid{.origin = {}, .voxel_size = 1.0F, .depth = 4};
+    VoxelClip clip({2, 1, 1});
+    clip.set({0, 0, 0}, ClipVoxel{{5, 0}, 0});
+    Brush brush = {.action = BrushAction::Fill, .stamp = clip.stampAt({3, 4, 5}, grid)};
+    const std::vector<Brush> images = imagesOf(brush, {.axes = {true, false, false}}, grid);
+    ASSERT_EQ(images.size(), 2U);
+    EXPECT_EQ(images[1].stamp->box, (VoxelBox{{11, 4, 5}, {12, 4, 5}}));
+    EXPECT_TRUE(VoxelClip(*images[1].stamp).at({1, 0, 0}));
+    const Mirror far = {.axes = {true, false, false}, .at = glm::ivec3(15, 0, 0)};
+    EXPECT_EQ(imagesOf(brush, far, grid).size(), 1U) << "the image is outside of the grid";
 }
 
 TEST(PointerRay, GoesThroughThePixel)

@@ -40,7 +40,7 @@ void editVoxels(DeviceTree fixed, bool attributes, float emission_scale)
         const auto action = static_cast<BrushAction>(i % 3);
         const Brush brush = {BrushShape::Sphere, action, gpu::ivec3(30 + 3 * i, 32, 34), 2 + 2 * i, 0x2060C0};
         before = model.cells();
-        model.apply(brush);
+        model.apply(brush, false);
         for (bool is_done = false; !is_done;)
         {
             const std::uint64_t frame = octree.beginFrame();

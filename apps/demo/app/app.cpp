@@ -169,6 +169,7 @@ void App::frame()
     {
         action();
     }
+    carryOutOrders();
     advanceTime();
     buildPanels();
     draw();

@@ -74,7 +74,8 @@ private:
         // Places in the probe's reports:
         std::optional<std::size_t> inspected; // the pixel under the pointer
         glm::uvec2 inspected_pixel{0U};
-        std::optional<std::size_t> color;               // for the brush
+        std::optional<std::size_t> picked;              // for a key of tools
+        Action pick = Action::None;                     // of that key
         std::optional<std::size_t> focus;               // of the lens
         std::vector<std::optional<std::size_t>> stroke; // nothing: outside of the window
     };
@@ -164,6 +165,13 @@ private:
     void showFirst(std::unique_ptr<World> world);
     void show(std::unique_ptr<World> world, const WorldOptions& options);
     void request(const EditRequest& request);
+    void carryOutOrders();
+    void carryOut(const FloodOrder& order);
+    void carryOut(const CopyOrder& order);
+    void carryOut(const PasteOrder& order);
+    void carryOut(const MoveOrder& order);
+    void carryOut(const DeleteOrder& order);
+    void editSelection(Action action);
     bool isMakingAWorld();
     void applyViewOptions();
     void setEnvironment(const cli::EnvironmentOptions& options);
@@ -230,6 +238,7 @@ private:
     std::deque<FrameInFlight> m_frames_in_flight;
 
     Editor m_editor;
+    VoxelClip m_clip; // what was copied, of this world
     SavedMark m_saved_mark;
     std::filesystem::path m_saved_file; // for Ctrl+S; empty: a new one
     FileDialog m_file_dialog;

@@ -49,10 +49,13 @@ void App::perform(const KeyBinding& binding, Key key)
         return changeView(-1);
     case Action::FrameScene:
         return frameScene();
-    case Action::CopyCamera:
-        return copyCamera();
-    case Action::PasteCamera:
-        return pasteCamera();
+    case Action::Copy:
+        return m_editor.state.tool == Tool::Select ? editSelection(Action::Copy) : copyCamera();
+    case Action::Paste:
+        return m_editor.state.tool == Tool::Select ? m_editor.perform(Action::Paste) : pasteCamera();
+    case Action::Cut:
+    case Action::Delete:
+        return editSelection(binding.action);
     case Action::StoreBookmark:
         return storeBookmark(number);
     case Action::RecallBookmark:
@@ -80,6 +83,10 @@ void App::perform(const KeyBinding& binding, Key key)
     case Action::SmallerBrush:
     case Action::LargerBrush:
     case Action::TakeColor:
+    case Action::UseSelection:
+    case Action::NextForm:
+    case Action::NextMirror:
+    case Action::PlaceMirror:
         return m_editor.perform(binding.action);
     case Action::Undo:
         return request(UndoStroke{});

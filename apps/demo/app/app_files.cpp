@@ -54,8 +54,7 @@ std::string App::editedName() const
 
 EditPoint App::editPoint() const
 {
-    const Edits* const edits = m_world->scene.edits();
-    return edits != nullptr ? EditPoint{edits->undoCount(), edits->changeCount()} : EditPoint{};
+    return {m_world->scene.undoCount(), m_world->scene.changeCount()};
 }
 
 bool App::hasUnsaved() const

@@ -34,13 +34,17 @@ App::FrameLooks App::takeLooks()
         return pixels.size() - 1;
     };
     FrameLooks looks;
-    if (m_mouse && (m_panels.shows_panels || m_editor.state.tool == Tool::Brush))
+    if (m_mouse && (m_panels.shows_panels || m_editor.hasButton()))
     {
         looks.inspected = place({m_mouse->x, m_mouse->y});
         looks.inspected_pixel = looks.inspected ? pixels.front() : glm::uvec2(0U);
     }
     const EditorLooks wanted = m_editor.takeLooks();
-    looks.color = wanted.color ? place(*wanted.color) : std::nullopt;
+    if (wanted.pick)
+    {
+        looks.picked = place(wanted.pick->at);
+        looks.pick = wanted.pick->action;
+    }
     if (std::exchange(m_wants_focus, false) && m_mouse)
     {
         looks.focus = place({m_mouse->x, m_mouse->y});
@@ -74,19 +78,28 @@ void App::answer(const FrameLooks& looks)
     {
         stroke.push_back(place ? reports[*place] : gpu::PixelReport{});
     }
-    m_editor.found(looks.color ? &reports[*looks.color] : nullptr, stroke, *m_world);
+    if (looks.picked)
+    {
+        m_editor.found(looks.pick, reports[*looks.picked], *m_world);
+    }
+    m_editor.found(stroke, *m_world);
     noteIdleStrokes();
 }
 
 // Strokes that change nothing are no entries of the history; the user is told why.
 void App::noteIdleStrokes()
 {
-    const bool has_missed = m_editor.takeMissed();
-    if (m_world->scene.dropUnchangedStrokes() != 0 || has_missed)
+    const bool has_changed_nothing = m_world->scene.dropUnchangedStrokes() != 0;
+    if (m_editor.takeMissed() || (has_changed_nothing && m_editor.wasOutside()))
     {
-        note(m_editor.state.action == BrushAction::Fill
-                 ? "nothing to fill there: the grid ends, or there are voxels already"
-                 : "the stroke has changed nothing");
+        note(m_world->isVoxelized()
+                 ? "the grid ends there; a margin (--margin, or in the build panel) is room to build in"
+                 : "the grid ends there");
+    }
+    else if (has_changed_nothing)
+    {
+        note(m_editor.state.action == BrushAction::Fill ? "nothing to fill there: there are voxels already"
+                                                        : "the stroke has changed nothing");
     }
 }
 

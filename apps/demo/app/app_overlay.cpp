@@ -16,23 +16,38 @@ bool App::drawOverlay()
     return drawDialogs() || has_brush;
 }
 
+// The tool that edits voxels: where it is, what is selected, and the mirror.
 bool App::drawBrushCursor()
 {
-    const bool has_brush = m_editor.state.tool == Tool::Brush && m_world->scene.canEdit();
-    const bool is_over_picture = !m_panels.shows_panels || !ImGui::GetIO().WantCaptureMouse;
-    if (!has_brush || !is_over_picture || !m_mouse || !m_inspected)
+    const ToolState& tool = m_editor.state;
+    const PictureSize size = m_window.size();
+    const bool edits = tool.tool == Tool::Brush || tool.tool == Tool::Select;
+    if (!edits || !m_world->scene.canEdit())
     {
         return false;
     }
-    const PictureSize size = m_window.size();
-    const PointerView view = {m_camera.camera(), {size.width, size.height}, {m_mouse->x, m_mouse->y}};
+    const MouseMoveEvent mouse = m_mouse.value_or(MouseMoveEvent{});
+    const PointerView view = {m_camera.camera(), {size.width, size.height}, {mouse.x, mouse.y}};
     const Grid& grid = m_world->scene.tree().grid;
-    const std::optional<BrushPlace> place = brushPlace(view, grid, *m_inspected);
-    if (place)
+    drawMirror(view, grid, tool.mirror);
+    const std::optional<VoxelBox> drawn = m_editor.drawnBox();
+    const std::optional<VoxelBox> box = drawn || tool.tool == Tool::Brush ? drawn : tool.selection;
+    if (box)
     {
-        drawBrush(view, grid, m_editor.state, *place);
+        drawVoxelBox(view, grid, *box);
     }
-    return place.has_value();
+    const bool is_over_picture = !m_panels.shows_panels || !ImGui::GetIO().WantCaptureMouse;
+    const std::optional<BrushPlace> place =
+        is_over_picture && m_mouse && m_inspected ? brushPlace(view, grid, *m_inspected) : std::nullopt;
+    if (place && tool.tool == Tool::Select)
+    {
+        drawFace(view, grid, *place);
+    }
+    else if (place && !drawn)
+    {
+        drawBrush(view, grid, tool, *place);
+    }
+    return place || box || tool.mirror != Mirror{};
 }
 
 } // namespace zvo::demo

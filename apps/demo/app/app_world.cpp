@@ -195,6 +195,7 @@ void App::show(std::unique_ptr<World> world, const WorldOptions& options)
     m_world = std::move(world);
     m_world_options = options;
     m_editor.release();
+    m_clip = {};
     m_inspected.reset();
     m_saved_mark.reset();
     m_saved_file.clear();

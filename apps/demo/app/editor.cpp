@@ -3,6 +3,7 @@
 
 #include "core/edit/edit.h"
 #include "demo/world/hit_face.h"
+#include "demo/world/mirror.h"
 
 #include <algorithm>
 #include <cmath>
@@ -19,7 +20,7 @@ void Editor::handle(const InputEvent& event, const ViewCamera& camera, const glm
     if (const auto* const move = std::get_if<MouseMoveEvent>(&event))
     {
         m_pointer = {move->x, move->y};
-        if (m_used.tool == Tool::Brush)
+        if (m_used.tool != Tool::Move)
         {
             m_stroke.move(m_pointer);
         }
@@ -33,7 +34,7 @@ void Editor::handle(const InputEvent& event, const ViewCamera& camera, const glm
     if (!button->pressed)
     {
         m_stroke.release();
-        m_drag.reset();
+        endDrag(world);
     }
     else if (hasButton() && !button->modifiers.alt && world.scene.canEdit())
     {
@@ -42,9 +43,14 @@ void Editor::handle(const InputEvent& event, const ViewCamera& camera, const glm
             m_used = state;
             m_dabs.clear();
             m_has_reached = false;
+            m_was_outside = false;
             m_has_grabbed = false;
+            m_has_shift = button->modifiers.shift;
+            m_first_voxel.reset();
+            m_last_voxel.reset();
         }
-        m_stroke.press(m_pointer);
+        const bool draws = m_used.tool == Tool::Brush && m_used.form == BrushForm::Stroke;
+        m_stroke.press(m_pointer, draws && button->modifiers.shift);
     }
 }
 
@@ -71,8 +77,21 @@ void Editor::perform(Action action)
     case Action::LargerBrush:
         state.radius = std::min(state.radius + 1, static_cast<int>(gpu::kBrushRadiusMax));
         break;
+    case Action::UseSelection:
+        choose(Tool::Select);
+        break;
+    case Action::NextForm:
+        state.form = static_cast<BrushForm>((static_cast<std::uint32_t>(state.form) + 1) % 3);
+        break;
+    case Action::NextMirror:
+        state.mirror.axes = state.mirror.axes[0]   ? std::array{false, true, false}
+                            : state.mirror.axes[1] ? std::array{false, false, true}
+                                                   : std::array{!state.mirror.axes[2], false, false};
+        break;
     case Action::TakeColor:
-        m_color_at = m_pointer;
+    case Action::PlaceMirror:
+    case Action::Paste:
+        m_pick = {action, m_pointer};
         break;
     default:
         break;
@@ -81,15 +100,29 @@ void Editor::perform(Action action)
 
 EditorLooks Editor::takeLooks()
 {
-    return {std::exchange(m_color_at, std::nullopt), m_stroke.takePoints()};
+    return {std::exchange(m_pick, std::nullopt), m_stroke.takePoints()};
 }
 
-void Editor::found(const gpu::PixelReport* color, std::span<const gpu::PixelReport> stroke, World& world)
+void Editor::found(Action pick, const gpu::PixelReport& report, const World& world)
 {
-    if (color != nullptr)
+    const Grid& grid = world.scene.tree().grid;
+    const glm::ivec3 voxel(report.cell);
+    if (pick == Action::TakeColor)
     {
-        takeColor(*color);
+        takeColor(report);
     }
+    else if (report.hit != 0 && report.level == grid.nodeLevels() && pick == Action::PlaceMirror)
+    {
+        state.mirror.at = voxel;
+    }
+    else if (report.hit != 0 && report.level == grid.nodeLevels())
+    {
+        order(PasteOrder{voxel, stepAcross(m_camera, grid, voxel, report.face)});
+    }
+}
+
+void Editor::found(std::span<const gpu::PixelReport> stroke, World& world)
+{
     paint(stroke, world);
     if (m_stroke.takeEnd())
     {
@@ -105,16 +138,19 @@ void Editor::paint(std::span<const gpu::PixelReport> reports, World& world)
         const bool is_voxel = report.hit != 0 && report.level == grid.nodeLevels();
         const std::optional<glm::ivec3> center = is_voxel ? dabCenter(report, grid) : std::nullopt;
         const DabSpacing spacing = center ? spacingAt(*center, grid) : DabSpacing{};
-        for (const glm::ivec3& dab : m_stroke.found({&center, 1}, spacing))
+        const std::vector<glm::ivec3> dabs = m_stroke.found({&center, 1}, spacing);
+        if (center)
         {
-            if (m_used.tool == Tool::Brush)
+            m_first_voxel = m_first_voxel ? m_first_voxel : center;
+            m_last_voxel = center;
+        }
+        for (const glm::ivec3& dab : dabs)
+        {
+            if (m_used.tool == Tool::Brush && m_used.form == BrushForm::Stroke)
             {
-                const Brush brush = m_used.brushAt(dab);
-                m_dabs.push_back(dab);
-                m_has_reached = m_has_reached || DabExtent::of(brush, grid).has_value();
-                world.scene.request(brush);
+                stamp(dab, world);
             }
-            else if (m_stroke.isDown())
+            else if (m_used.tool == Tool::Move && m_stroke.isDown())
             {
                 grab(report, world);
             }
@@ -122,12 +158,30 @@ void Editor::paint(std::span<const gpu::PixelReport> reports, World& world)
     }
 }
 
+// A dab of the stroke, and its images in the mirror.
+void Editor::stamp(const glm::ivec3& voxel, World& world)
+{
+    const Grid& grid = world.scene.tree().grid;
+    for (const glm::ivec3& image : imagesOf(voxel, m_used.mirror, grid))
+    {
+        m_dabs.push_back(image);
+        noteReach(m_used.brushAt(image), grid);
+        world.scene.request(m_used.brushAt(image));
+    }
+}
+
+void Editor::noteReach(const Brush& brush, const Grid& grid)
+{
+    m_has_reached = m_has_reached || !partsOf(brush, grid).empty();
+    m_was_outside = m_was_outside || partsOf({.center = brush.center}, grid).empty();
+}
+
 // Where a dab at a voxel has its centre. A brush that fills builds on the face, and not on what its stroke has built,
 // or else it would grow towards the camera.
 std::optional<glm::ivec3> Editor::dabCenter(const gpu::PixelReport& report, const Grid& grid) const
 {
     const glm::ivec3 voxel(report.cell);
-    if (m_used.tool != Tool::Brush || m_used.action != BrushAction::Fill)
+    if (m_used.tool != Tool::Brush || m_used.action != BrushAction::Fill || m_used.form == BrushForm::Flood)
     {
         return voxel;
     }
@@ -163,23 +217,113 @@ void Editor::grab(const gpu::PixelReport& report, World& world)
     }
 }
 
+// What was dragged is an entry of the history.
+void Editor::endDrag(World& world)
+{
+    if (m_drag && world.scene.offset(m_drag->object) != m_drag->offset)
+    {
+        world.scene.request(ObjectMove{m_drag->object, m_drag->offset, world.scene.offset(m_drag->object)});
+    }
+    m_drag.reset();
+}
+
 void Editor::finishStroke(World& world)
 {
-    m_drag.reset();
-    if (m_used.tool == Tool::Brush)
+    endDrag(world);
+    if (m_used.tool == Tool::Brush && m_used.form == BrushForm::Stroke)
     {
         world.scene.request(EndStroke{});
         m_has_missed = !m_dabs.empty() && !m_has_reached;
     }
-    for (const EditRequest& request : std::exchange(m_behind, {}))
+    else if (m_first_voxel && m_last_voxel)
     {
-        world.scene.request(request);
+        finishBox(world);
     }
+    sendBehind(world);
+}
+
+// The stroke went from a voxel to another one.
+void Editor::finishBox(World& world)
+{
+    const VoxelBox box = VoxelBox::of(*m_first_voxel, *m_last_voxel);
+    if (m_used.tool == Tool::Select && m_has_shift && state.selection)
+    {
+        order(MoveOrder{*state.selection, *m_last_voxel - *m_first_voxel});
+    }
+    else if (m_used.tool == Tool::Select)
+    {
+        state.selection = box;
+    }
+    else if (m_used.tool == Tool::Brush && m_used.form == BrushForm::Box)
+    {
+        const Brush brush = m_used.boxBetween(*m_first_voxel, *m_last_voxel);
+        requestStroke({&brush, 1}, m_used.mirror, world);
+        m_has_missed = !m_has_reached;
+    }
+    else if (m_used.tool == Tool::Brush)
+    {
+        order(FloodOrder{m_used, *m_first_voxel});
+    }
+}
+
+std::optional<VoxelBox> Editor::drawnBox() const
+{
+    const bool draws = m_used.tool == Tool::Select || (m_used.tool == Tool::Brush && m_used.form == BrushForm::Box);
+    if (!draws || !m_stroke.isActive() || !m_first_voxel || !m_last_voxel)
+    {
+        return std::nullopt;
+    }
+    if (m_used.tool == Tool::Select && m_has_shift && state.selection)
+    {
+        return state.selection->movedBy(*m_last_voxel - *m_first_voxel);
+    }
+    return m_used.tool == Tool::Select ? VoxelBox::of(*m_first_voxel, *m_last_voxel)
+                                       : m_used.boxBetween(*m_first_voxel, *m_last_voxel).box();
+}
+
+std::optional<EditOrder> Editor::nextOrder() const
+{
+    return m_orders.empty() || m_stroke.isActive() ? std::nullopt : std::optional(m_orders.front());
+}
+
+void Editor::orderDone(World& world)
+{
+    m_orders.pop_front();
+    sendBehind(world);
+}
+
+// Queues what waits behind a stroke or an order.
+void Editor::sendBehind(World& world)
+{
+    if (m_orders.empty())
+    {
+        for (const EditRequest& request : std::exchange(m_behind, {}))
+        {
+            world.scene.request(request);
+        }
+    }
+}
+
+void Editor::requestStroke(std::span<const Brush> brushes, const Mirror& mirror, World& world)
+{
+    const Grid& grid = world.scene.tree().grid;
+    for (const Brush& brush : brushes)
+    {
+        for (const Brush& image : imagesOf(brush, mirror, grid))
+        {
+            noteReach(image, grid);
+            for (const Brush& part : partsOf(image, grid))
+            {
+                world.scene.request(part);
+            }
+        }
+    }
+    world.scene.request(EndStroke{});
 }
 
 void Editor::request(const EditRequest& request, World& world)
 {
-    if (m_stroke.isActive())
+    if (m_stroke.isActive() || !m_orders.empty())
     {
         m_behind.push_back(request);
     }
@@ -202,9 +346,12 @@ void Editor::drag(World& world)
 void Editor::release()
 {
     m_stroke = {};
-    m_color_at.reset();
+    m_pick.reset();
+    m_orders.clear();
     m_behind.clear();
     m_drag.reset();
+    state.selection.reset();
+    state.mirror.at.reset();
 }
 
 void Editor::takeColor(const gpu::PixelReport& report)

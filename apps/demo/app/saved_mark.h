@@ -11,7 +11,7 @@ namespace zvo::demo
 struct EditPoint
 {
     std::size_t undo_count = 0;
-    std::uint64_t change_count = 0; // of Edits: dabs so far
+    std::uint64_t change_count = 0; // of LiveScene: dabs and moves so far
 
     bool operator==(const EditPoint&) const = default;
 };

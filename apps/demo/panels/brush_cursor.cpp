@@ -3,6 +3,7 @@
 
 #include "demo/input/pointer_ray.h"
 #include "demo/world/hit_face.h"
+#include "demo/world/mirror.h"
 
 #include <imgui.h>
 
@@ -70,14 +71,16 @@ Line rim(const ViewCamera& camera, const glm::dvec3& center, double radius)
     return circle(center - nearer * axis, rim_radius * x, rim_radius * glm::cross(x, axis));
 }
 
-// The side of a box to which step leads, or its middle plane across `axis` where offset is 0.
-Line square(const glm::dvec3& center, glm::length_t axis, double half, double offset)
+// A rectangle across `axis` with half the size `half`, at that distance from the centre.
+Line rectangle(const glm::dvec3& center, glm::length_t axis, const glm::dvec3& half, double offset)
 {
+    const glm::length_t first = (axis + 1) % 3;
+    const glm::length_t second = (axis + 2) % 3;
     glm::dvec3 x(0.0);
     glm::dvec3 y(0.0);
     glm::dvec3 normal(0.0);
-    x[(axis + 1) % 3] = half;
-    y[(axis + 2) % 3] = half;
+    x[first] = half[first];
+    y[second] = half[second];
     normal[axis] = offset;
     return {center + normal - x - y, center + normal + x - y, center + normal + x + y, center + normal - x + y};
 }
@@ -87,13 +90,13 @@ glm::length_t axisOf(const glm::ivec3& step)
     return step.x != 0 ? 0 : step.y != 0 ? 1 : 2;
 }
 
-void drawBox(const PointerView& view, const glm::dvec3& center, double half, ImU32 color)
+void drawBox(const PointerView& view, const glm::dvec3& center, const glm::dvec3& half, ImU32 color)
 {
     for (glm::length_t axis = 0; axis < 3; ++axis)
     {
-        for (const double side : {-half, half})
+        for (const double side : {-half[axis], half[axis]})
         {
-            drawClosed(view, square(center, axis, half, side), color, 1.0F);
+            drawClosed(view, rectangle(center, axis, half, side), color, 1.0F);
         }
     }
 }
@@ -140,29 +143,63 @@ std::optional<BrushPlace> brushPlace(const PointerView& view, const Grid& grid, 
     return place;
 }
 
-void drawBrush(const PointerView& view, const Grid& grid, const ToolState& tool, const BrushPlace& place)
+void drawVoxelBox(const PointerView& view, const Grid& grid, const VoxelBox& box)
+{
+    const glm::dvec3 center = 0.5 * (voxelCenter(grid, box.lo) + voxelCenter(grid, box.hi));
+    drawBox(view, center, 0.5 * double{grid.voxel_size} * glm::dvec3(box.size()), IM_COL32(255, 255, 255, 255));
+}
+
+void drawMirror(const PointerView& view, const Grid& grid, const Mirror& mirror)
+{
+    const glm::dvec3 half(0.5 * grid.resolution() * double{grid.voxel_size});
+    const glm::dvec3 middle = glm::dvec3(grid.origin) + half;
+    const glm::dvec3 at =
+        glm::dvec3(grid.origin) + 0.5 * double{grid.voxel_size} * (glm::dvec3(mirror.sum(grid)) + 1.0);
+    for (glm::length_t axis = 0; axis < 3; ++axis)
+    {
+        if (mirror.axes[static_cast<std::size_t>(axis)])
+        {
+            drawClosed(view, rectangle(middle, axis, half, at[axis] - middle[axis]), IM_COL32(120, 200, 255, 255),
+                       1.0F);
+        }
+    }
+}
+
+void drawFace(const PointerView& view, const Grid& grid, const BrushPlace& place)
 {
     constexpr ImU32 kFaceColor = IM_COL32(255, 220, 90, 255);
+    if (place.step != glm::ivec3(0))
+    {
+        const double half = 0.5 * double{grid.voxel_size};
+        const glm::length_t axis = axisOf(place.step);
+        drawClosed(view, rectangle(voxelCenter(grid, place.voxel), axis, glm::dvec3(half), half * place.step[axis]),
+                   kFaceColor, 1.5F);
+    }
+}
+
+void drawBrush(const PointerView& view, const Grid& grid, const ToolState& tool, const BrushPlace& place)
+{
+    drawFace(view, grid, place);
+    if (tool.form == BrushForm::Flood)
+    {
+        return;
+    }
     const bool has_color = tool.action != BrushAction::Carve;
     const ImU32 color = has_color ? ImGui::ColorConvertFloat4ToU32({tool.color[0], tool.color[1], tool.color[2], 1.0F})
                                   : IM_COL32(255, 255, 255, 255);
     const glm::ivec3 voxel = tool.action == BrushAction::Fill ? place.voxel + place.step : place.voxel;
-    const glm::dvec3 center = voxelCenter(grid, voxel);
     const double half = (tool.radius + 0.5) * double{grid.voxel_size};
-    if (tool.shape == BrushShape::Box)
+    for (const glm::ivec3& image : imagesOf(voxel, tool.mirror, grid))
     {
-        drawBox(view, center, half, color);
-    }
-    else
-    {
-        drawSphere(view, center, half, place.step, color);
-    }
-    if (place.step != glm::ivec3(0))
-    {
-        const double half_voxel = 0.5 * double{grid.voxel_size};
-        const glm::length_t axis = axisOf(place.step);
-        drawClosed(view, square(voxelCenter(grid, place.voxel), axis, half_voxel, half_voxel * place.step[axis]),
-                   kFaceColor, 1.5F);
+        const glm::dvec3 center = voxelCenter(grid, image);
+        if (tool.shape == BrushShape::Box || tool.form == BrushForm::Box)
+        {
+            drawBox(view, center, glm::dvec3(half), color);
+        }
+        else
+        {
+            drawSphere(view, center, half, place.step, color);
+        }
     }
 }
 

@@ -30,7 +30,17 @@ struct BrushPlace
 /// its face is taken to go on up to here. Nothing if no voxel was found.
 std::optional<BrushPlace> brushPlace(const PointerView& view, const Grid& grid, const InspectedPixel& found);
 
-/// Draws the outline of the brush at its place, and the voxel's face, between the picture and the panels.
+/// Draws the outline of a box of voxels.
+void drawVoxelBox(const PointerView& view, const Grid& grid, const VoxelBox& box);
+
+/// Draws the planes of the mirror, as far as the grid goes.
+void drawMirror(const PointerView& view, const Grid& grid, const Mirror& mirror);
+
+/// Draws the face of a voxel.
+void drawFace(const PointerView& view, const Grid& grid, const BrushPlace& place);
+
+/// Draws the outline of the brush, and of its images in the mirror, at its place, and the voxel's face, between the
+/// picture and the panels.
 void drawBrush(const PointerView& view, const Grid& grid, const ToolState& tool, const BrushPlace& place);
 
 } // namespace zvo::demo

@@ -7,9 +7,9 @@
 namespace zvo::demo
 {
 
-void Stroke::press(const glm::dvec2& at)
+void Stroke::press(const glm::dvec2& at, bool line)
 {
-    m_points.push_back({at, true});
+    m_points.push_back({at, line ? Joint::Line : Joint::Nothing});
     m_pointer = at;
     m_is_down = true;
     m_is_stroke = true;
@@ -25,7 +25,7 @@ void Stroke::move(const glm::dvec2& at)
     const double step_count = std::ceil(glm::distance(from, at) / kLookStep);
     for (double step = 1; step <= step_count; ++step)
     {
-        m_points.push_back({glm::mix(from, at, step / step_count), false});
+        m_points.push_back({glm::mix(from, at, step / step_count), Joint::Before});
     }
     m_pointer = at;
 }
@@ -36,7 +36,7 @@ std::vector<glm::dvec2> Stroke::takePoints()
     for (; !m_points.empty() && taken.size() < kLooksMax; m_points.pop_front())
     {
         taken.push_back(m_points.front().at);
-        m_awaited.push_back(m_points.front().is_press);
+        m_awaited.push_back(m_points.front().joint);
     }
     return taken;
 }
@@ -46,14 +46,20 @@ std::vector<glm::ivec3> Stroke::found(std::span<const std::optional<glm::ivec3>>
     std::vector<glm::ivec3> dabs;
     for (const std::optional<glm::ivec3>& voxel : voxels)
     {
-        if (m_awaited.front() || !voxel)
+        DabSpacing wanted = spacing;
+        if (m_awaited.front() == Joint::Line)
+        {
+            m_last_dab = m_line_from;
+            wanted.reach = INFINITY;
+        }
+        else if (m_awaited.front() == Joint::Nothing || !voxel)
         {
             m_last_dab.reset();
         }
         m_awaited.pop_front();
         if (voxel)
         {
-            join(*voxel, spacing, dabs);
+            join(*voxel, wanted, dabs);
         }
     }
     return dabs;
@@ -76,6 +82,7 @@ void Stroke::join(const glm::ivec3& voxel, const DabSpacing& spacing, std::vecto
         dabs.emplace_back(glm::round(glm::mix(from, to, i / count)));
     }
     m_last_dab = voxel;
+    m_line_from = voxel;
 }
 
 bool Stroke::takeEnd()

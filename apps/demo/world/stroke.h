@@ -28,8 +28,9 @@ public:
     static constexpr double kLookStep = 2;        // of the window's units
     static constexpr std::size_t kLooksMax = 256; // in a frame
 
-    /// The button was pressed. A press continues a stroke that still waits for voxels, but is not joined to it.
-    void press(const glm::dvec2& at);
+    /// The button was pressed. A press continues a stroke that still waits for voxels, but is not joined to it. line:
+    /// it is joined, straight, to the last dab of the last stroke.
+    void press(const glm::dvec2& at, bool line = false);
     void release() { m_is_down = false; }
 
     /// The pointer has moved.
@@ -53,18 +54,26 @@ public:
     bool takeEnd();
 
 private:
+    // What a point is joined to.
+    enum class Joint
+    {
+        Before, // the point before it, if that is near
+        Nothing,
+        Line // the last dab, wherever that is
+    };
     struct Point
     {
         glm::dvec2 at;
-        bool is_press; // and not joined to the point before it
+        Joint joint;
     };
 
     void join(const glm::ivec3& voxel, const DabSpacing& spacing, std::vector<glm::ivec3>& dabs);
 
-    std::deque<Point> m_points; // to look at
-    std::deque<bool> m_awaited; // of points without an answer: Point::is_press
-    glm::dvec2 m_pointer{0.0};  // of the last point
+    std::deque<Point> m_points;  // to look at
+    std::deque<Joint> m_awaited; // of points without an answer
+    glm::dvec2 m_pointer{0.0};   // of the last point
     std::optional<glm::ivec3> m_last_dab;
+    std::optional<glm::ivec3> m_line_from;
     bool m_is_down = false;
     bool m_is_stroke = false;
 };
