@@ -122,18 +122,19 @@ TEST_F(DemoEditing, AStrokeOfOneStepHasNoGaps)
     EXPECT_LT(count, 2500U) << "a line, not more";
 }
 
-// The cube fills its grid. In front of its face there is nothing to fill, and behind it with a radius of 1.
+// The cube fills its grid. In front of its face there is nothing to fill, and what is hidden behind it stays empty.
 TEST_F(DemoEditing, AStrokeThatChangesNothingIsNoEntry)
 {
     Script script;
     script.press(1, Key::F12).press(2, Key::B);
     std::uint64_t frame = drag(script, 4, {{60, 50}, {80, 50}}); // carves
     script.press(frame, Key::N);
+    frame = drag(script, frame + 2, {{140, 90}, {150, 90}}); // with a radius of 8
     for (std::uint64_t i = 0; i < 7; ++i)
     {
-        script.press(frame + 2 + 2 * i, Key::LeftBracket);
+        script.press(frame + 2 * i, Key::LeftBracket);
     }
-    frame = drag(script, frame + 18, {{140, 90}, {150, 90}});
+    frame = drag(script, frame + 16, {{140, 90}, {150, 90}});
     script.press(frame, Key::LeftBracket);
     frame = drag(script, frame + 2, {{140, 90}, {150, 90}});
     script.press(frame + 4, Key::Z, kControl).press(frame + 6, Key::F12);

@@ -165,15 +165,24 @@ void Editor::stamp(const glm::ivec3& voxel, World& world)
     for (const glm::ivec3& image : imagesOf(voxel, m_used.mirror, grid))
     {
         m_dabs.push_back(image);
-        noteReach(m_used.brushAt(image), grid);
-        world.scene.request(m_used.brushAt(image));
+        if (reaches(m_used.brushAt(image), grid))
+        {
+            world.scene.request(m_used.brushAt(image));
+        }
     }
 }
 
-void Editor::noteReach(const Brush& brush, const Grid& grid)
+// Whether a brush is to be applied. A brush that fills from outside of the grid would make nothing but what is hidden
+// behind the face that it is used on.
+bool Editor::reaches(const Brush& brush, const Grid& grid)
 {
-    m_has_reached = m_has_reached || !partsOf(brush, grid).empty();
-    m_was_outside = m_was_outside || partsOf({.center = brush.center}, grid).empty();
+    const VoxelBox whole = {glm::ivec3(0), glm::ivec3(grid.resolution()) - 1};
+    const bool is_shape = brush.stamp == nullptr;
+    const bool is_outside = is_shape && VoxelBox::of(brush.center, brush.center + brush.span).within(whole).isEmpty();
+    const bool reaches = !brush.box().within(whole).isEmpty() && !(is_outside && brush.action == BrushAction::Fill);
+    m_was_outside = m_was_outside || is_outside;
+    m_has_reached = m_has_reached || reaches;
+    return reaches;
 }
 
 // Where a dab at a voxel has its centre. A brush that fills builds on the face, and not on what its stroke has built,
@@ -311,8 +320,8 @@ void Editor::requestStroke(std::span<const Brush> brushes, const Mirror& mirror,
     {
         for (const Brush& image : imagesOf(brush, mirror, grid))
         {
-            noteReach(image, grid);
-            for (const Brush& part : partsOf(image, grid))
+            const std::vector<Brush> parts = reaches(image, grid) ? partsOf(image, grid) : std::vector<Brush>();
+            for (const Brush& part : parts)
             {
                 world.scene.request(part);
             }

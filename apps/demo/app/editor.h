@@ -134,7 +134,7 @@ private:
     [[nodiscard]] DabSpacing spacingAt(const glm::ivec3& voxel, const Grid& grid) const;
     void paint(std::span<const gpu::PixelReport> reports, World& world);
     void stamp(const glm::ivec3& voxel, World& world);
-    void noteReach(const Brush& brush, const Grid& grid);
+    bool reaches(const Brush& brush, const Grid& grid);
     void finishBox(World& world);
     void sendBehind(World& world);
     void takeColor(const gpu::PixelReport& report);
