@@ -43,7 +43,7 @@ const uint kBrushPaint = 2u; // gives voxels another colour and another emission
 
 const uint kBrushActionShift = 8u; // of the action in Brush::kind
 
-const uint kBrushRadiusMax = 64u;                  // voxels
+const uint kBrushRadiusMax = 64u;                   // voxels
 const uint kDabEdgeMax = 2u * kBrushRadiusMax + 1u; // of a dab's box
 
 // A stamp has these words for each leaf that its box touches, in the order of cells: the mask of its voxels; then

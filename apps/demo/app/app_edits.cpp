@@ -4,6 +4,7 @@
 
 #include "common/progress.h"
 #include "core/edit/voxel_clip.h"
+#include "core/tree/rgb9e5.h"
 #include "demo/world/mirror.h"
 
 #include <fmt/format.h>
@@ -44,8 +45,11 @@ std::vector<Brush> placed(const VoxelClip& clip, const glm::ivec3& at, const Gri
 }
 
 // What a flood reaches, as the brush makes it look.
-VoxelClip painted(const Flood& flood, std::uint32_t color)
+VoxelClip painted(const Flood& flood, const Brush& brush, float emission_scale)
 {
+    const bool emits = brush.emission != glm::vec3(0.0F);
+    const std::uint32_t color = brush.color | (emits ? gpu::kAttributeEmissive << 24U : 0U);
+    const std::uint32_t emission = emits ? encodeRgb9e5(brush.emission / emission_scale) : 0U;
     VoxelClip painted(flood.reached.size());
     glm::ivec3 cell(0);
     for (cell.z = 0; cell.z < painted.size().z; ++cell.z)
@@ -56,7 +60,7 @@ VoxelClip painted(const Flood& flood, std::uint32_t color)
             {
                 if (const std::optional<ClipVoxel>& voxel = flood.voxels.at(flood.reached.lo + cell))
                 {
-                    painted.set(cell, ClipVoxel{{color, voxel->look.normal}, 0});
+                    painted.set(cell, ClipVoxel{{color, voxel->look.normal}, emission});
                 }
             }
         }
@@ -91,6 +95,7 @@ void App::carryOutOrders()
 void App::carryOut(const FloodOrder& order)
 {
     const Grid& grid = m_world->scene.tree().grid;
+    const float emission_scale = m_world->scene.tree().emission_scale;
     const auto tolerance = static_cast<std::uint32_t>(order.tool.tolerance);
     std::vector<Brush> brushes;
     std::size_t count = 0;
@@ -107,7 +112,7 @@ void App::carryOut(const FloodOrder& order)
         count += flood.voxels.voxelCount();
         is_cut_off = is_cut_off || glm::any(glm::equal(reached.lo, seed - kFloodReach)) ||
                      glm::any(glm::equal(reached.hi, seed + kFloodReach));
-        for (Brush brush : placed(painted(flood, order.tool.brushAt(seed).color), reached.lo, grid))
+        for (Brush brush : placed(painted(flood, order.tool.brushAt(seed), emission_scale), reached.lo, grid))
         {
             brush.action = order.tool.action == BrushAction::Carve ? BrushAction::Carve : BrushAction::Fill;
             brushes.push_back(brush);

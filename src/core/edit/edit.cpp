@@ -286,7 +286,7 @@ void recordCopy(vk::FrameGraph& graph, const DeviceTree& tree, std::uint32_t roo
                 vk::BufferOf<gpu::uint>& words, DabBuffers& buffers)
 {
     const gpu::Brush everything = {gpu::ivec3(extent.box.lo), gpu::ivec3(extent.box.hi),
-                                   gpu::kBrushBox | gpu::kBrushPaint << gpu::kBrushActionShift, 0};
+                                   gpu::kBrushBox | gpu::kBrushPaint << gpu::kBrushActionShift, 0, 0};
     recordFind(graph, tree, {root, 0, 0}, everything, extent, {}, buffers);
     graph.fill(words, 0);
     vk::Pass pass = graph.addPass(
