@@ -2,6 +2,8 @@
 // Runs every kernel of brushes once, on work as small as that of every_kernel_test.cpp.
 #include "core/base/grid.h"
 #include "core/dynamic/dynamic_octree.h"
+#include "core/edit/edit.h"
+#include "core/edit/voxel_clip.h"
 #include "lanes/kernel_names.h"
 #include "runtime/trees.h"
 #include "support/edit_model.h"
@@ -23,7 +25,18 @@ namespace
 using test::device;
 using test::run;
 
-// Carves, fills and paints with so little room that states have to move, and undoes a step.
+void edit(DynamicOctree& octree, const Brush& brush)
+{
+    for (bool is_done = false; !is_done;)
+    {
+        const std::uint64_t frame = octree.beginFrame();
+        run([&](vk::FrameGraph& graph) { is_done = octree.edit(graph, brush); });
+        octree.frameDone(frame);
+    }
+    octree.endStroke();
+}
+
+// Carves, fills and paints with so little room that states have to move, undoes a step, and places a copy.
 void editVoxels(DeviceTree fixed, bool attributes, float emission_scale)
 {
     DynamicOptions options;
@@ -41,13 +54,7 @@ void editVoxels(DeviceTree fixed, bool attributes, float emission_scale)
         const Brush brush = {BrushShape::Sphere, action, gpu::ivec3(30 + 3 * i, 32, 34), 2 + 2 * i, 0x2060C0};
         before = model.cells();
         model.apply(brush, false);
-        for (bool is_done = false; !is_done;)
-        {
-            const std::uint64_t frame = octree.beginFrame();
-            run([&](vk::FrameGraph& graph) { is_done = octree.edit(graph, brush); });
-            octree.frameDone(frame);
-        }
-        octree.endStroke();
+        edit(octree, brush);
     }
     EXPECT_EQ(test::difference(cells(), model.cells()), "");
     if (octree.edits().undoCount() != 0)
@@ -55,6 +62,20 @@ void editVoxels(DeviceTree fixed, bool attributes, float emission_scale)
         run([&](vk::FrameGraph& graph) { octree.undoEdit(graph); });
         EXPECT_EQ(test::difference(cells(), before), "");
     }
+    const Grid& grid = octree.tree().grid;
+    const VoxelBox box = {{26, 28, 30}, {37, 37, 39}};
+    const auto extent =
+        DabExtent::of({.shape = BrushShape::Box, .center = box.lo, .span = box.hi - box.lo}, grid).value();
+    DabBuffers buffers(device().device(), extent.cell_count);
+    vk::BufferOf<gpu::uint> words(device().device(), "words", std::uint64_t{extent.leafCount()} * gpu::kStampWords);
+    run([&](vk::FrameGraph& graph) { recordCopy(graph, octree.tree(), octree.editedRoot(), extent, words, buffers); });
+    const VoxelClip clip(Stamp{box, device().download(words)});
+    EXPECT_NE(clip.voxelCount(), 0U);
+    const Brush stamp = {.action = BrushAction::Fill, .stamp = clip.stampAt({29, 21, 30}, grid)};
+    test::EditModel copied(grid, cells(), attributes);
+    copied.apply(stamp, false);
+    edit(octree, stamp);
+    EXPECT_EQ(test::difference(cells(), copied.cells()), "");
 }
 
 // Edits the scene as an octree, as a DAG, and without attributes; compiling more variants would take too long.
