@@ -16,7 +16,7 @@
 float densityOfMap(uint normal, vec3 direction)
 {
     if (isFaceNormal(normal))
-        return mapDensity(params.environment, faceOf(normal), direction);
+        return mapDensity(params.environment, normal, direction);
     vec3 surface_normal = normalOf(normal);
     float density = 0.0;
     for (uint axis = 0u; axis < 3u; ++axis)
@@ -46,16 +46,15 @@ vec3 lightOfMiss(PathState state, Ray ray)
 ChosenDirection chooseMapLight(PathState state, uint bounce)
 {
     uint pair = bounce * kPathPairs;
-    uint index = sampleOf(state);
-    vec2 point = samplePair(index, state.seed, pair + kPairPoint);
+    vec2 point = samplePair(params.sample_index, state.seed, pair + kPairPoint);
     ChosenDirection chosen;
     chosen.target = uvec2(kNoTarget);
-    vec2 other = samplePair(index, state.seed, pair + kPairOther);
+    vec2 other = samplePair(params.sample_index, state.seed, pair + kPairOther);
     if (other.x < state.kinds.x)
     {
         bool is_face = isFaceNormal(state.normal);
-        uint face = is_face ? faceOf(state.normal) : chosenFace(normalOf(state.normal), other.y);
-        uvec2 choice = sampleBits(index, state.seed, pair + kPairChoice);
+        uint face = is_face ? state.normal : chosenFace(normalOf(state.normal), other.y);
+        uvec2 choice = sampleBits(params.sample_index, state.seed, pair + kPairChoice);
         chosen.direction = chooseMapDirection(params.environment, face, choice, point, chosen.density);
         if (!is_face)
             chosen.density = densityOfMap(state.normal, chosen.direction);

@@ -43,7 +43,7 @@ vec2 outsideGives(uint face)
     return uintBitsToFloat(unpackUint2x32(uint64_t_ConstPtr(uint64_t(params.gives)).data[face]));
 }
 
-// Likewise, a surface with any normal.
+// What a surface with any normal (length 1) gets of the map, and of the sun, at most.
 vec2 outsideGives(vec3 normal)
 {
     vec2 gives = vec2(0.0);
@@ -59,7 +59,7 @@ vec2 outsideGives(vec3 normal)
 // for all that may give any, half in proportion to how much it may give.
 vec3 kindsAt(LitPlace place, uint normal)
 {
-    vec3 gives = vec3(isFaceNormal(normal) ? outsideGives(faceOf(normal)) : outsideGives(place.normal), 0.0);
+    vec3 gives = vec3(isFaceNormal(normal) ? outsideGives(normal) : outsideGives(place.normal), 0.0);
     if (kEmission)
         gives.z = lightImportance(params.light_nodes, place, 0u, false) * exp2(-4.0 * float(kNodeLevels));
     vec3 present = vec3(gives.x > 0.0 ? 1.0 : 0.0, gives.y > 0.0 ? 1.0 : 0.0, gives.z > 0.0 ? 1.0 : 0.0);
@@ -73,7 +73,7 @@ void leaveFace(vec3 position, uint bounce, inout NextRay next)
 {
     const float pi = 3.14159265358979;
     vec3 normal = normalOf(next.state.normal);
-    vec2 u = samplePair(sampleOf(next.state), next.state.seed, bounce * kPathPairs + kPairDirection);
+    vec2 u = samplePair(params.sample_index, next.state.seed, bounce * kPathPairs + kPairDirection);
     vec3 direction = cosineDirection(u.x, 2.0 * pi * u.y);
     next.state.density = direction.z / pi;
     next.state.kinds = kindsAt(LitPlace(position, normal), next.state.normal);
@@ -102,7 +102,7 @@ NextRay nextRay(PathState state, Ray ray, bool hits, Hit hit, vec3 albedo, uint 
     float strongest = max(state.throughput.r, max(state.throughput.g, state.throughput.b));
     NextRay next;
     next.exists = hits && hitFace(hit) != kFaceInside && strongest > 0.0;
-    vec2 other = samplePair(sampleOf(state), state.seed, bounce * kPathPairs + kPairOther);
+    vec2 other = samplePair(params.sample_index, state.seed, bounce * kPathPairs + kPairOther);
     next.choice = other.x;
     if (roulette && bounce >= kRouletteFirst)
     {
@@ -111,10 +111,9 @@ NextRay nextRay(PathState state, Ray ray, bool hits, Hit hit, vec3 albedo, uint 
         state.throughput /= max(survives, 1e-20);
     }
 
-    uint face = normalOfHit(min(hitFace(hit), 2u), ray.inverse_direction);
-    state.normal = face + (kSmooth ? 0u : state.normal & ~kPathFaceMask);
+    state.normal = normalOfHit(min(hitFace(hit), 2u), ray.inverse_direction);
     vec3 point = ray.origin + hit.t / ray.inverse_direction;
-    point = pointOnFace(point, hitCell(hit), normalAxis(face));
+    point = pointOnFace(point, hitCell(hit), normalAxis(state.normal));
     if (kSmooth && bounce == 0u)
         leaveByNormal(normal_code, ray, hit, state, point);
     next.state = state;

@@ -2,7 +2,7 @@
 // The normals of surfaces that paths leave (PathState::normal): numbers of faces, as in LightBrick::exposed, and with
 // kSmooth codes of any normals, too. Light is then chosen by a mixture of what faces along the three axes would choose,
 // by the squares of the normal's components: each direction above the surface is above one of them.
-// Needs the constant kSmooth and params.sample_index.
+// Needs the constant kSmooth.
 #ifndef ZVO_SHADERS_PATH_NORMAL_GLSL
 #define ZVO_SHADERS_PATH_NORMAL_GLSL
 
@@ -16,22 +16,10 @@ bool isFaceNormal(uint normal)
     return !kSmooth || normal < kNormals;
 }
 
-// The number of a face, without that of the sample (PathState::normal).
-uint faceOf(uint normal)
-{
-    return kSmooth ? normal : normal & kPathFaceMask;
-}
-
-// The number of a path's sample, by which it takes its random numbers.
-uint sampleOf(PathState state)
-{
-    return params.sample_index + (kSmooth ? 0u : state.normal >> kPathFaceBits);
-}
-
 // The normal (length 1) with a number or code.
 vec3 normalOf(uint normal)
 {
-    return isFaceNormal(normal) ? normalAxis(faceOf(normal)) : normalize(vec3(decodeNormal(normal)));
+    return isFaceNormal(normal) ? normalAxis(normal) : normalize(vec3(decodeNormal(normal)));
 }
 
 // The few codes that are numbers of faces become one beside them, which is 0.01 degrees off.

@@ -59,8 +59,7 @@ struct PathState
     vec3 throughput; // of light from the ray to the pixel
     uint slot;       // of its pixel in the batch
     uint seed;       // of the pixel's random numbers
-    uint normal;     // of the surface where the ray starts (path/normal.glsl); of a face: 3 bits, and then
-                     // what is added to the number of the path's sample
+    uint normal;     // of the surface where the ray starts (path/normal.glsl)
     float density;   // by solid angle, with which the ray's direction was chosen; 0: by the camera
     vec3 kinds;      // probabilities with which light was looked for at the face: in the map, the sun, voxels
 };
@@ -76,8 +75,6 @@ struct ShadowState
 GPU_BUFFER(ShadowState, 8);
 
 const uint kNoTarget = ~0u; // in both words
-const uint kPathFaceBits = 3u;
-const uint kPathFaceMask = (1u << kPathFaceBits) - 1u;
 
 // The lists of a bounce. Workgroups for each stand in a buffer of DispatchArgs, kListElements for a bounce; behind them
 // stand the lists' lengths, a word each.

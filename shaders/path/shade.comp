@@ -24,7 +24,6 @@ void main()
     bool exists = i < count;
     i = min(i, count - 1u);
     PathState state = loadState(params.states, i);
-    state.normal = 0u; // of where the ray began: a code may be no number of a sample (path/normal.glsl)
     Ray ray = loadRay(params.rays, i);
     Hit hit = loadHit(params.hits, i);
     bool hits = exists && !isMiss(hit);

@@ -38,10 +38,9 @@ vec3 lightOfHit(PathState state, Ray ray, Hit hit)
 ChosenDirection chooseVoxelLight(PathState state, vec3 origin, uint bounce)
 {
     uint pair = bounce * kPathPairs;
-    uint index = sampleOf(state);
-    vec2 point = samplePair(index, state.seed, pair + kPairPoint);
+    vec2 point = samplePair(params.sample_index, state.seed, pair + kPairPoint);
     ChosenLight light = chooseLight(params.light_nodes, params.light_bricks, LitPlace(origin, normalOf(state.normal)),
-                                    samplePair(index, state.seed, pair + kPairChoice));
+                                    samplePair(params.sample_index, state.seed, pair + kPairChoice));
     float edge = exp2(-2.0 * float(kNodeLevels));
     vec3 way = pointOfFace(light.cell, light.face, edge, point) - origin;
     float square = max(dot(way, way), 1e-30);

@@ -23,34 +23,23 @@ const bool kSmooth = false; // light goes from face to face
 #include "radiance/cached_face.glsl"
 #include "radiance/list_faces.glsl"
 
-// The number of a face's next sample. Each face counts its own, whatever frames it is taken in, so that the first few
-// are spread well over directions and lights. Where its mean counts no more samples, frames are counted.
-uint sampleOfFace(FaceState state)
-{
-    uint count = cachedWeight(state.own);
-    bool counts = count + 1u < params.window && ((state.mark >> kMarkMovedShift) & kMarkMovedFrames) == 0u;
-    return counts ? count : kCachedWeightMax + params.frame;
-}
-
 void main()
 {
     uint path = threadIndex();
     uint count = listLength(0u, kListPaths);
     bool exists = path < count;
-    uint slot = params.numbers.data[min(path, count - 1u)]; // of kListPaths, the first list
-    uvec2 key = loadFace(slot).key;
+    uvec2 key = loadFace(params.numbers.data[min(path, count - 1u)]).key; // of kListPaths, the first list
 
     NextRay next;
     next.exists = exists;
     uint seed = hashPair(hashPair(key.x, key.y), params.seed);
+    next.state = PathState(vec3(1.0), path, seed, normalOfFace(key), 0.0, vec3(0.0));
+    next.choice = samplePair(params.sample_index, seed, kPairOther).x;
     uvec3 cell = cellOfFace(key);
-    uint face_normal = normalOfFace(key);
-    uint index = sampleOfFace(loadFaceState(slot));
-    next.state = PathState(vec3(1.0), path, seed, face_normal + (index << kPathFaceBits), 0.0, vec3(0.0));
-    next.choice = samplePair(index, seed, kPairOther).x;
+    uint face_normal = next.state.normal;
     vec3 normal = normalAxis(face_normal);
     float edge = exp2(-2.0 * float(kNodeLevels));
-    vec3 point = pointOfFace(cell, face_normal, edge, samplePair(index, seed, kPairPixel));
+    vec3 point = pointOfFace(cell, next.state.normal, edge, samplePair(params.sample_index, seed, kPairPixel));
     leaveFace(pointOnFace(point, cell, normal), 0u, next);
     if (exists)
     {

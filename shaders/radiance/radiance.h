@@ -202,10 +202,8 @@ struct RadianceBeginParams // push constants of radiance/begin: a thread a path
     GPU_PTR(uint) bricks;   // [kBrickLevels][batch] slots
     uint batch;
     uint run_count;
-    uint sample_index; // 0
+    uint sample_index;
     uint seed;
-    uint window; // as in RadianceUpdateParams
-    uint frame;
 };
 #define RADIANCE_BEGIN_CONSTANTS(CONSTANT)                                                                             \
     CONSTANT(0, uint, node_levels, kNodeLevels, 5u)                                                                    \

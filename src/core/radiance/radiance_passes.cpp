@@ -110,12 +110,6 @@ void select(vk::FrameGraph& graph, const RadianceFrame& frame)
                           divideUp(frame.lists.wanted[0].count(), gpu::kPathGroup));
 }
 
-// The most samples that means of faces count.
-std::uint32_t sampleWindow(const RadianceFrame& frame)
-{
-    return std::clamp(frame.window, 1U, gpu::kCachedWeightMax);
-}
-
 void begin(vk::FrameGraph& graph, const RadianceFrame& frame)
 {
     PathBatch& batch = frame.lists.batch;
@@ -135,10 +129,8 @@ void begin(vk::FrameGraph& graph, const RadianceFrame& frame)
                            .bricks = pass.readWrite(frame.lists.bricks),
                            .batch = static_cast<std::uint32_t>(batch.capacity()),
                            .run_count = frame.table.run_count,
-                           .sample_index = 0,
-                           .seed = frame.seed,
-                           .window = sampleWindow(frame),
-                           .frame = frame.number},
+                           .sample_index = frame.number,
+                           .seed = frame.seed},
                           divideUp(frame.lists.faces, gpu::kPathGroup));
 }
 
@@ -219,14 +211,14 @@ void extend(vk::FrameGraph& graph, const RadianceFrame& frame)
                            .radiance = pass.readWrite(batch.radiance),
                            .batch = static_cast<std::uint32_t>(batch.capacity()),
                            .run_count = frame.table.run_count,
-                           .sample_index = 0},
+                           .sample_index = frame.number},
                           divideUp(frame.lists.faces, gpu::kPathGroup));
 }
 
 void update(vk::FrameGraph& graph, const RadianceFrame& frame)
 {
     PathBatch& batch = frame.lists.batch;
-    const std::uint32_t window = sampleWindow(frame);
+    const std::uint32_t window = std::clamp(frame.window, 1U, gpu::kCachedWeightMax);
     vk::Pass pass = graph.addPass(gpu::radiance::Update{});
     pass.dispatchIndirect(batch.lists, listArgs(0, gpu::kListPaths),
                           {.faces = pass.readWrite(frame.table.faces),
@@ -350,7 +342,7 @@ void sampleFaces(vk::FrameGraph& graph, const RadianceFrame& frame)
                                  .environment = frame.environment,
                                  .lights = frame.lights,
                                  .status = frame.status,
-                                 .sample_index = 0, // faces count their own
+                                 .sample_index = frame.number,
                                  .path_count = frame.lists.faces,
                                  .first_noted = ray == 0 ? frame.firstMoving() : std::nullopt};
         addChosenLight(graph, light, batch, ray, ray);

@@ -108,7 +108,7 @@ TEST(PathNormals, LightIsTheSameInEachWay)
     std::array<PathPicture, kWays.size()> pictures;
     for (std::size_t i = 0; i < kWays.size(); ++i)
     {
-        pictures.at(i) = pictureOf(tree, sky, outside(), 16, kWays.at(i) == LightSampling::Both ? 64 : 256,
+        pictures.at(i) = pictureOf(tree, sky, outside(), 16, kWays.at(i) == LightSampling::Both ? 80 : 320,
                                    {.bounces = 2, .sampling = kWays.at(i), .smooth = true});
         const double error = std::hypot(pictures.at(i).error, pictures.front().error);
         EXPECT_NEAR(pictures.at(i).luminance, pictures.front().luminance, 3.0 * error);

@@ -174,7 +174,7 @@ TEST(TracePicture, ItsBuffersTellAllTheMemoryThatTheyTake)
         EXPECT_GE(buffers.bytes() + kRoundingMax, memory.usedBytes() - used);
         EXPECT_EQ(buffers.bytes(), buffers.starts.bytes() + buffers.live.bytes() + buffers.args.bytes() +
                                        buffers.rounds.bytes() + buffers.status.bytes() + buffers.hits.bytes() +
-                                       buffers.light.bytes() + buffers.image.bytes());
+                                       buffers.light.bytes() + buffers.sky.bytes() + buffers.image.bytes());
     }
 }
 
