@@ -38,7 +38,8 @@ struct FrameOptions
     RadianceOptions radiance = {};                    // Integrator::Cache and Cones
     Shading shading = Shading::Smooth;                // of all integrators but Cones
     bool antialias = false; // Integrator::Primary: pictures are means of samples, each through another point of pixels
-    Exposure exposure = {}; // Integrator::Primary: the factor alone
+    /// Integrator::Primary: automatic is by the sun's height (daylightExposure()), not by pixels.
+    Exposure exposure = {};
 
     bool operator==(const FrameOptions&) const = default;
 

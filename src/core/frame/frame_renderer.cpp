@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "core/frame/frame_renderer.h"
 
+#include "core/scene/sky.h"
+
 #include <utility>
 
 namespace zvo
@@ -23,6 +25,13 @@ CacheView viewOf(const FrameOptions& options)
     return options.integrator == Integrator::Cones ? CacheView::Cones
            : options.shading == Shading::Faces     ? CacheView::Faces
                                                    : CacheView::Smooth;
+}
+
+// Pictures by primary rays are not metered: the sky says how bright the day is.
+float primaryExposure(const FrameOptions& options)
+{
+    const double daylight = options.exposure.automatic ? daylightExposure(options.trace.to_sun) : 1.0;
+    return options.exposure.factor * static_cast<float>(daylight);
 }
 
 bool denoises(const FrameOptions& options)
@@ -52,7 +61,7 @@ void FrameRenderer::addSample(vk::FrameGraph& graph, const FrameSubject& subject
     case Integrator::Primary:
     {
         TraceOptions trace = options.trace;
-        trace.exposure = options.exposure.factor;
+        trace.exposure = primaryExposure(options);
         trace.shading = options.shading;
         if (options.hasSamples())
         {
@@ -101,8 +110,8 @@ void FrameRenderer::develop(vk::FrameGraph& graph, const FrameOptions& options)
 {
     if (options.hasSamples())
     {
-        Exposure exposure = options.exposure;
-        exposure.automatic = exposure.automatic && options.shownIntegrator() != Integrator::Primary;
+        const bool is_primary = options.shownIntegrator() == Integrator::Primary;
+        const Exposure exposure = is_primary ? Exposure{false, primaryExposure(options)} : options.exposure;
         developer().develop(graph, samples(options), buffers().texels, exposure, m_tracer.image());
     }
 }

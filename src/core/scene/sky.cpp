@@ -89,6 +89,17 @@ gpu::Sky skyOf(const glm::dvec3& to_sun)
             gpu::vec3(glow),      gpu::vec3(ground), gpu::vec3(above),  gpu::vec3(below)};
 }
 
+double daylightExposure(const glm::dvec3& to_sun)
+{
+    constexpr double kPart = 0.6; // of the stops that light loses
+    constexpr double kMost = 12;
+    constexpr glm::dvec3 kLuminance(0.2126, 0.7152, 0.0722);
+    const auto light = [&](const glm::dvec3& direction) {
+        return glm::dot(kLuminance, 0.5 * kSunStrength * sunColor(direction) + glm::dvec3(skyOf(direction).above));
+    };
+    return std::min(std::pow(light({0.0, 1.0, 0.0}) / light(to_sun), kPart), kMost);
+}
+
 glm::dvec3 sunAtHour(double hour)
 {
     const double angle = (hour / 12.0 - 1.0) * std::numbers::pi; // 0 at noon, when it is in the south

@@ -17,6 +17,10 @@ gpu::Sky skyOf(const glm::dvec3& to_sun);
 /// Sky::sun, in double precision.
 glm::dvec3 sunColor(const glm::dvec3& to_sun);
 
+/// By what factor pictures are made brighter when the sun is low or gone, so that dusk can be seen: 1 by day, and 12 by
+/// night at most, when a lit surface is still darker than by day.
+double daylightExposure(const glm::dvec3& to_sun);
+
 /// The direction to the sun at an hour of the day, from 0 to 24, at an equinox and 45 degrees north: it rises at 6 in
 /// the east (+x), stands 45 degrees high in the south (+z) at 12, and sets at 18 in the west. Length 1.
 glm::dvec3 sunAtHour(double hour);

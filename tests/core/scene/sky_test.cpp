@@ -37,9 +37,15 @@ TEST(Sky, LowSunsAreRedAndNightsDarkAndBlue)
         EXPECT_LE(sky.sun.b * higher.sun.r, sky.sun.r * higher.sun.b) << hour;
         EXPECT_LE(sky.zenith.g, higher.zenith.g) << hour;
         EXPECT_LE(sky.ground.g, higher.ground.g) << hour;
+        const auto shown = [](const gpu::Sky& light, const glm::dvec3& to_sun)
+        { return daylightExposure(to_sun) * (light.above.g + 1.1 * light.sun.g); };
+        EXPECT_LT(shown(sky, sunAtHour(hour)), 1.001 * shown(higher, glm::dvec3(higher.to_sun))) << hour;
+        EXPECT_GE(daylightExposure(sunAtHour(hour)), daylightExposure(glm::dvec3(higher.to_sun))) << hour;
         higher = sky;
     }
     EXPECT_EQ(higher.sun, gpu::vec3(0.0F));
+    EXPECT_EQ(daylightExposure({-0.6, 0.75, 0.45}), 1.0);
+    EXPECT_EQ(daylightExposure(sunAtHour(0.0)), 12.0);
     EXPECT_LT(higher.zenith.b, 0.05F);
     EXPECT_GT(higher.zenith.b, higher.zenith.r);
 }
