@@ -5,6 +5,8 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <cstddef>
+#include <set>
 
 namespace zvo::test
 {
@@ -13,6 +15,8 @@ namespace
 
 using demo::PictureState;
 using demo::Refinement;
+using demo::ResolutionLadder;
+using demo::scaledSize;
 
 TEST(Refinement, BeginsOnceNothingHasChangedForAWhile)
 {
@@ -66,6 +70,54 @@ TEST(Refinement, ViewsWithoutLightHaveOneSample)
 }
 
 // What no lower resolution makes shorter does not lower it.
+TEST(ResolutionLadder, GoesDownWhereFramesTakeTooLongAndNoFurtherThanTheLastStep)
+{
+    ResolutionLadder ladder(0);
+    EXPECT_EQ(ladder.scale(), 1.0);
+    ladder.add(200);
+    EXPECT_EQ(ladder.scale(), 1.0) << "one long frame is an accident";
+    ladder.add(10);
+    ladder.add(200);
+    EXPECT_EQ(ladder.scale(), 1.0);
+    ladder.add(200);
+    EXPECT_EQ(ladder.scale(), 0.75);
+    for (int i = 0; i < 100; ++i)
+    {
+        ladder.add(200);
+    }
+    EXPECT_EQ(ladder.scale(), ResolutionLadder::kScales.back());
+}
+
+TEST(ResolutionLadder, GoesUpWhereTheNextStepFitsAndStaysThere)
+{
+    // On this device a frame takes 300 ms at the window's size, and time grows with the pixels.
+    const auto timeAt = [](double scale) { return 300 * scale * scale; };
+    for (const std::size_t first : {std::size_t{0}, ResolutionLadder::kScales.size() - 1})
+    {
+        ResolutionLadder ladder(first);
+        std::set<double> late;
+        for (int i = 0; i < 1000; ++i)
+        {
+            ladder.add(timeAt(ladder.scale()));
+            if (i >= 200)
+            {
+                late.insert(ladder.scale());
+            }
+        }
+        EXPECT_EQ(late.size(), 1U) << "it does not go up and down";
+        EXPECT_LE(timeAt(*late.begin()), ResolutionLadder::kTooLongMs);
+        EXPECT_GE(*late.begin(), 0.375);
+    }
+}
+
+TEST(ResolutionLadder, SizesHaveAPixelAtLeast)
+{
+    EXPECT_EQ(scaledSize({1280, 720}, 0.5), (PictureSize{640, 360}));
+    EXPECT_EQ(scaledSize({1281, 3}, 0.125), (PictureSize{160, 1}));
+    EXPECT_EQ(scaledSize({1, 1}, 0.125), (PictureSize{1, 1}));
+    EXPECT_EQ(scaledSize({7, 9}, 1.0), (PictureSize{7, 9}));
+}
+
 TEST(ResolutionLadder, IsToldOfPassesThatScale)
 {
     const std::array<vk::PassTime, 6> passes = {{{"radiance/update", 53},
