@@ -94,9 +94,8 @@ double daylightExposure(const glm::dvec3& to_sun)
     constexpr double kPart = 0.6; // of the stops that light loses
     constexpr double kMost = 12;
     constexpr glm::dvec3 kLuminance(0.2126, 0.7152, 0.0722);
-    const auto light = [&](const glm::dvec3& direction) {
-        return glm::dot(kLuminance, 0.5 * kSunStrength * sunColor(direction) + glm::dvec3(skyOf(direction).above));
-    };
+    const auto light = [&](const glm::dvec3& direction)
+    { return glm::dot(kLuminance, 0.5 * kSunStrength * sunColor(direction) + glm::dvec3(skyOf(direction).above)); };
     return std::min(std::pow(light({0.0, 1.0, 0.0}) / light(to_sun), kPart), kMost);
 }
 
