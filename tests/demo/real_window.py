@@ -14,6 +14,7 @@ import time
 SCREEN = (1600, 1000)
 PATIENCE_SECONDS = 60  # until what should happen counts as missing
 LOOK_SECONDS = 0.01    # between looks at the screen
+CLICK_SECONDS = 0.1    # that a button is held
 XWD_SIZE, XWD_ROW_BYTES, XWD_COLORS = 0, 12, 19  # of the words of a header of the X Window Dump format
 XWD_COLOR_BYTES = 12
 
@@ -69,6 +70,16 @@ class Window:
         """Has xdotool do something: what it prints."""
         done = subprocess.run(["xdotool", *map(str, command)], env=self.environment, capture_output=True, text=True)
         return done.stdout.strip()
+
+    def click_until_change(self, what, area):
+        """Clicks as long as a person does, and waits until an area changes by the release: seconds from the release,
+        with what xdotool takes to start."""
+        self.tell("mousedown", 1, "sleep", CLICK_SECONDS)
+        before = self.pixels(area)
+        release = subprocess.Popen(["xdotool", "mouseup", "1"], env=self.environment)
+        seconds = self.wait_for_change(what, before, area)
+        release.wait()
+        return seconds
 
     def press(self, *keys):
         self.tell("key", *keys)
