@@ -2,6 +2,7 @@
 """A window of zvo-demo on an X server of its own, with real input from xdotool, and pixels from the server's memory."""
 
 import contextlib
+import ctypes
 import mmap
 import os
 import pathlib
@@ -17,6 +18,7 @@ LOOK_SECONDS = 0.01    # between looks at the screen
 CLICK_SECONDS = 0.1    # that a button is held
 XWD_SIZE, XWD_ROW_BYTES, XWD_COLORS = 0, 12, 19  # of the words of a header of the X Window Dump format
 XWD_COLOR_BYTES = 12
+X_PROP_REPLACE, XA_RESOURCE_MANAGER, XA_STRING = 0, 23, 31
 
 
 def missing_programs():
@@ -45,6 +47,18 @@ class Screen:
         starts = (self.first + row * self.row_bytes + 4 * x for row in range(y, y + height))
         return b"".join(self.memory[start:start + 4 * width] for start in starts)
 
+    def set_resolution(self, dots_per_inch):
+        """As desktops tell it to programs: by a resource of the X server."""
+        x = ctypes.CDLL("libX11.so.6")
+        x.XOpenDisplay.restype = ctypes.c_void_p
+        display = ctypes.c_void_p(x.XOpenDisplay(self.display.encode()))
+        x.XDefaultRootWindow.restype = ctypes.c_ulong
+        root = ctypes.c_ulong(x.XDefaultRootWindow(display))
+        resources = f"Xft.dpi: {dots_per_inch}\n".encode()
+        x.XChangeProperty(display, root, ctypes.c_ulong(XA_RESOURCE_MANAGER), ctypes.c_ulong(XA_STRING), 8,
+                          X_PROP_REPLACE, resources, len(resources))
+        x.XCloseDisplay(display)
+
     def close(self):
         self.memory.close()
         self.process.kill()
@@ -60,8 +74,9 @@ class Window:
                                 XDG_CONFIG_HOME=str(folder / "config"))
         self.errors = open(folder / "errors.txt", "w+b")
         self.start = time.monotonic()
-        self.process = subprocess.Popen([program, *arguments, "--size", f"{size[0]}x{size[1]}"], cwd=folder,
-                                        env=self.environment, stderr=self.errors)
+        if size is not None:
+            arguments = [*arguments, "--size", f"{size[0]}x{size[1]}"]
+        self.process = subprocess.Popen([program, *arguments], cwd=folder, env=self.environment, stderr=self.errors)
 
     def age(self):
         return time.monotonic() - self.start
@@ -98,6 +113,12 @@ class Window:
 
     def pixels(self, area=None):
         return self.screen.pixels(*(area or (0, 0, *self.size)))
+
+    def geometry(self):
+        """Its size in pixels."""
+        words = dict(line.split("=") for line in self.tell("search", "--onlyvisible", "--name", ".", "getwindowgeometry",
+                                                           "--shell").splitlines())
+        return int(words["WIDTH"]), int(words["HEIGHT"])
 
     def title(self):
         return self.tell("search", "--onlyvisible", "--name", ".", "getwindowname")
@@ -166,11 +187,12 @@ class Window:
 
 
 @contextlib.contextmanager
-def opened(program, folder, arguments, size):
-    """A window on a new screen."""
+def opened(program, folder, arguments, size, dots_per_inch=96):
+    """A window on a new screen. size: in pixels; None: what the program chooses."""
     folder.mkdir(parents=True, exist_ok=True)
     screen = Screen(folder)
     try:
+        screen.set_resolution(dots_per_inch)
         window = Window(screen, program, folder, arguments, size)
         try:
             yield window

@@ -50,6 +50,9 @@ Settings otherSettings()
     settings.view.frame.path.bounces = 3;
     settings.view.map_sun = true;
     settings.brush = {Tool::Camera, BrushAction::Paint, BrushShape::Box, 3, {0.25F, 1.0F / 3.0F, 1.0F}};
+    settings.brush.emission = 12.5F;
+    settings.brush.form = BrushForm::Flood;
+    settings.brush.tolerance = 255;
     settings.scenes = {memoryOf("/a/b.glb", 1.0 / 3.0), memoryOf("/c d.zvo", -7)};
     return settings;
 }

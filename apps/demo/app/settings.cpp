@@ -30,6 +30,7 @@ namespace
 using Json = nlohmann::ordered_json;
 
 constexpr const char* kSchema = "zvo.demo_settings/1";
+
 // Calls read with the member of that name, if there is one.
 template <typename Read> void with(const JsonCursor& object, std::string_view name, Read read)
 {
@@ -54,10 +55,11 @@ ViewState readViewState(const JsonCursor& object)
 
 constexpr std::array<std::string_view, 3> kBrushActions = {"carve", "fill", "paint"};
 constexpr std::array<std::string_view, 2> kBrushShapes = {"sphere", "box"};
+constexpr std::array<std::string_view, 3> kBrushForms = {"stroke", "box", "flood"};
 
 ToolState readBrush(const JsonCursor& object)
 {
-    object.allowKeys({"action", "shape", "radius", "color", "emission"});
+    object.allowKeys({"action", "shape", "radius", "color", "emission", "form", "tolerance"});
     ToolState brush;
     brush.action = static_cast<BrushAction>(object.at("action").oneOf(kBrushActions));
     brush.shape = static_cast<BrushShape>(object.at("shape").oneOf(kBrushShapes));
@@ -67,6 +69,11 @@ ToolState readBrush(const JsonCursor& object)
     with(object, "emission",
          [&](const JsonCursor& value)
          { brush.emission = static_cast<float>(value.positive(ToolState::kEmissionMax)); });
+    with(object, "form",
+         [&](const JsonCursor& value) { brush.form = static_cast<BrushForm>(value.oneOf(kBrushForms)); });
+    with(object, "tolerance",
+         [&](const JsonCursor& value)
+         { brush.tolerance = static_cast<int>(value.whole(0, ToolState::kToleranceMax)); });
     return brush;
 }
 
@@ -75,7 +82,9 @@ Json brushJson(const ToolState& brush)
     Json json = {{"action", kBrushActions[static_cast<std::size_t>(brush.action)]},
                  {"shape", kBrushShapes[static_cast<std::size_t>(brush.shape)]},
                  {"radius", brush.radius},
-                 {"color", {double{brush.color[0]}, double{brush.color[1]}, double{brush.color[2]}}}};
+                 {"color", {double{brush.color[0]}, double{brush.color[1]}, double{brush.color[2]}}},
+                 {"form", kBrushForms[static_cast<std::size_t>(brush.form)]},
+                 {"tolerance", brush.tolerance}};
     if (brush.emission > 0.0F)
     {
         json["emission"] = double{brush.emission};

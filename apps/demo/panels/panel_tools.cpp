@@ -70,7 +70,8 @@ void chooseBrush(ToolState& state)
     choose(state.action, kActionNames);
     if (state.form == BrushForm::Flood)
     {
-        ImGui::SliderInt("tolerance", &state.tolerance, 0, 255, "%d of 255", ImGuiSliderFlags_AlwaysClamp);
+        ImGui::SliderInt("tolerance", &state.tolerance, 0, ToolState::kToleranceMax, "%d of 255",
+                         ImGuiSliderFlags_AlwaysClamp);
     }
     else
     {

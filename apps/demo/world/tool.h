@@ -57,6 +57,7 @@ struct ToolState
     std::optional<VoxelBox> selection = std::nullopt; // what the selecting tool has selected
 
     static constexpr float kEmissionMax = 100;
+    static constexpr int kToleranceMax = 255;
 
     bool operator==(const ToolState&) const = default;
 
