@@ -33,7 +33,7 @@ FrameOptions optionsOf(const TraceInfo& info)
     options.trace.occlusion_reach = info.occlusion_reach;
     options.trace.detail_pixels = info.detail_pixels;
     options.shading = info.shading;
-    options.exposure.factor = info.exposure;
+    options.exposure = {false, info.exposure};
     return options;
 }
 
