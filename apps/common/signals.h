@@ -14,8 +14,8 @@ enum class Noticed
     All        ///< SIGTERM and SIGHUP, too
 };
 
-/// While one exists, the first SIGINT does not end the program, but is noticed here: so that what is done so far can be
-/// written. The second one ends it. One at a time.
+/// While one exists, the first of these signals does not end the program, but is noticed here: so that what is done so
+/// far can be written. The second one ends it. One at a time.
 class InterruptWatch
 {
 public:

@@ -35,14 +35,14 @@ public:
     /// above. strength: factor for its radiance. Throws Error{Usage} for a picture of no texels, and Error{Memory}.
     DeviceEnvironment(vk::Device& device, const HdrImage& picture, double turn, double strength);
 
-    /// Likewise, of texels [width * height], which are uploaded at once.
+    /// The map of texels [width * height], which are uploaded at once.
     DeviceEnvironment(vk::Uploader& uploads, std::uint32_t width, std::uint32_t height,
                       std::span<const glm::vec3> texels, double turn, double strength);
 
     void setSun(const Sun& sun);
 
-    /// Has the camera see another map in place of the one that gives light, which it stands as: before prepare() is
-    /// called. Throws Error{Memory}.
+    /// Has the camera see another map, turned in the same way, in place of the one that gives light: before prepare()
+    /// is called. Throws Error{Memory}.
     void setBackground(vk::Device& device, HdrImage map);
 
     /// From the next prepare() on, directions to the map are chosen evenly, whatever light comes from there; for
@@ -88,7 +88,7 @@ private:
     bool m_chooses_evenly = false;
     bool m_is_prepared = false;   // texels and tables
     bool m_is_current = false;    // m_buffer
-    HdrImage m_background_upload; // likewise
+    HdrImage m_background_upload; // texels that the device does not have yet
     vk::BufferOf<gpu::vec3> m_texels;
     vk::BufferOf<gpu::vec3> m_background; // no elements: the camera sees m_texels
     vk::BufferOf<gpu::AliasCell> m_cells;
