@@ -139,8 +139,7 @@ PictureSize sizeOf(int width, int height)
     return {static_cast<std::uint32_t>(std::max(width, 0)), static_cast<std::uint32_t>(std::max(height, 0))};
 }
 
-// The size times the first screen's scale, as far as that has room. Of screens whose units are larger than pixels, GLFW
-// tells a scale, too, but their windows need none.
+// The size times the first screen's scale, as far as that has room.
 PictureSize fitted(PictureSize size)
 {
     GLFWmonitor* const screen = glfwGetPrimaryMonitor();
@@ -165,7 +164,7 @@ PictureSize fitted(PictureSize size)
 
 } // namespace
 
-Window::Window(PictureSize size, bool scales, const std::string& title) : m_scales(scales)
+Window::Window(PictureSize size, bool scales, const std::string& title)
 {
     glfwSetErrorCallback(onError);
     if (glfwInit() == GLFW_FALSE)
@@ -180,6 +179,10 @@ Window::Window(PictureSize size, bool scales, const std::string& title) : m_scal
     {
         glfwTerminate();
         throwNoWindow("the window system opens no window");
+    }
+    if (uiScale() == 1.0F) // GLFW tells the scale of screens, too, whose units are larger than pixels
+    {
+        glfwSetWindowSize(m_window, static_cast<int>(size.width), static_cast<int>(size.height));
     }
     glfwSetWindowUserPointer(m_window, this);
     installCallbacks(m_window);
@@ -239,7 +242,7 @@ PictureSize Window::size() const
 PictureSize Window::unscaledSize() const
 {
     const PictureSize size = this->size();
-    const float scale = m_scales ? uiScale() : 1.0F;
+    const float scale = uiScale();
     const auto unscaled = [scale](std::uint32_t length)
     { return static_cast<std::uint32_t>(static_cast<float>(length) / scale + 0.5F); };
     return {unscaled(size.width), unscaled(size.height)};

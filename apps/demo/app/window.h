@@ -70,7 +70,6 @@ public:
 private:
     GLFWwindow* m_window = nullptr;
     std::vector<InputEvent> m_events;
-    bool m_scales = false;
     bool m_is_damaged = false;
     bool m_is_minimized = false;
     bool m_has_no_extent = false; // because resize() said so
