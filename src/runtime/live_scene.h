@@ -65,6 +65,15 @@ struct LiveUpdate
     std::uint32_t retry_count = 0;    // frames before that one, which did not complete the update
 };
 
+/// A place in the history of edits. While it is the same, and no stroke is under way, so is what is edited.
+struct EditPoint
+{
+    std::uint64_t stroke = 0; // numbers of the last ones that are not undone, or 0
+    std::uint64_t move = 0;
+
+    bool operator==(const EditPoint&) const = default;
+};
+
 /// A scene in device memory: a static part, which is made once, into which the dynamic objects of an AnimatedScene are
 /// merged with their poses at a given time, and which brushes edit. A frame: beginFrame(); then update() into the
 /// frame's commands; then frameDone() once the device is done with it, or frameLost(). The device must outlive a
@@ -75,8 +84,8 @@ public:
     /// An empty scene. Nothing can be merged with it.
     explicit LiveScene(vk::HeadlessDevice& device) : m_device(device) {}
 
-    /// The scene of a tree from a file. Of options, only frames_in_flight and warn are used. A tree with packed
-    /// attributes cannot be edited. Throws Error{Memory}.
+    /// The scene of a tree from a file. Of options, frames_in_flight, brushes_emit and warn are used. A tree with
+    /// packed attributes cannot be edited. Throws Error{Memory}.
     LiveScene(vk::HeadlessDevice& device, const TreeData& tree, const LiveOptions& options);
 
     /// Uploads an animated scene and builds its static part; the dynamic objects are voxelized by the first
@@ -123,10 +132,10 @@ public:
     [[nodiscard]] std::size_t undoCount() const { return canEdit() ? edits()->undoCount() + m_moves.undoCount() : 0; }
     [[nodiscard]] std::size_t redoCount() const { return canEdit() ? edits()->redoCount() + m_moves.redoCount() : 0; }
 
-    /// Grows with every dab and every move of an object.
-    [[nodiscard]] std::uint64_t changeCount() const
+    /// The place in the history, as far as strokes and moves have been recorded.
+    [[nodiscard]] EditPoint editPoint() const
     {
-        return canEdit() ? edits()->changeCount() + m_moves.changeCount() : 0;
+        return canEdit() ? EditPoint{edits()->stroke(), m_moves.move()} : EditPoint{};
     }
 
     /// Copies the voxels of a box, without dynamic objects, as requests that were recorded have made them. Waits. Only
@@ -155,7 +164,7 @@ public:
     [[nodiscard]] const AnimatedScene& animated() const { return m_animated; }
     [[nodiscard]] bool moves() const { return !m_objects.empty(); }
 
-    /// Whether the last update() has recorded dabs, undo or redo.
+    /// Whether the last update() has carried out requests.
     [[nodiscard]] bool isEdited() const { return !m_recorded.empty(); }
 
     /// Why the dynamic objects could not be shown as they should be; empty if nothing is wrong.

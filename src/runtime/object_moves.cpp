@@ -7,9 +7,8 @@ namespace zvo
 void ObjectMoves::add(const ObjectMove& move, std::uint64_t stroke)
 {
     dropRedo();
-    m_moves.push_back({move, stroke});
+    m_moves.push_back({move, stroke, ++m_move_count});
     ++m_current;
-    ++m_change_count;
 }
 
 std::optional<ObjectMove> ObjectMoves::undo(std::uint64_t stroke)

@@ -41,19 +41,20 @@ public:
     [[nodiscard]] std::size_t undoCount() const { return m_current; }
     [[nodiscard]] std::size_t redoCount() const { return m_moves.size() - m_current; }
 
-    /// Grows with every move.
-    [[nodiscard]] std::uint64_t changeCount() const { return m_change_count; }
+    /// The number of the last move that is not taken back, or 0. No two moves have the same number.
+    [[nodiscard]] std::uint64_t move() const { return m_current == 0 ? 0 : m_moves[m_current - 1].number; }
 
 private:
     struct Entry
     {
         ObjectMove move;
         std::uint64_t stroke; // that came before it
+        std::uint64_t number;
     };
 
     std::vector<Entry> m_moves;
     std::size_t m_current = 0; // moves that are not taken back
-    std::uint64_t m_change_count = 0;
+    std::uint64_t m_move_count = 0;
 };
 
 } // namespace zvo

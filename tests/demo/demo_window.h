@@ -7,6 +7,7 @@
 #include "demo/xvfb.h"
 #include "support/device.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -130,7 +131,7 @@ protected:
     }
 
     /// A screenshot that a key has asked for.
-    [[nodiscard]] static std::string shotName(int number) { return "zvo-000" + std::to_string(number) + ".png"; }
+    [[nodiscard]] static std::string shotName(int number) { return fmt::format("zvo-{:04}.png", number); }
     [[nodiscard]] std::string shot(int number) const { return file(shotName(number)); }
 
     Xvfb m_server;

@@ -203,40 +203,51 @@ TEST_F(DemoEditing, BoxesMirrorsFloodsAndTheSelectionAreEditsThatAreUndone)
         script.press(frame, Key::F12).press(frame + 2, Key::Z, kControl);
         frame += 4;
     };
-    edit({{80, 40}, {160, 60}}); // 2
+    for (const MouseMoveEvent& point : {MouseMoveEvent{80, 70}, MouseMoveEvent{150, 70}}) // before there are answers
+    {
+        script.add(frame, point).add(frame, MouseButtonEvent{MouseButton::Left, true, {}});
+        script.add(frame, MouseMoveEvent{point.x + 10, 90}).add(frame, MouseButtonEvent{MouseButton::Left, false, {}});
+    }
+    script.press(frame + 5, Key::F12).press(frame + 7, Key::Z, kControl).press(frame + 9, Key::Z, kControl); // 2
+    frame += 11;
+    edit({{80, 40}, {160, 60}}); // 3
     script.press(frame, Key::X); // mirrors along x
-    edit({{80, 40}, {90, 60}});  // 3
+    edit({{80, 40}, {90, 60}});  // 4
     script.press(frame, Key::X).press(frame + 2, Key::X).press(frame + 4, Key::X).press(frame + 6, Key::O);
     script.press(frame + 8, Key::N).press(frame + 10, Key::N); // a flood that paints
     frame += 12;
-    edit({{100, 50}}); // 4
+    edit({{100, 50}}); // 5
     script.press(frame, Key::O);
     frame = drag(script, frame + 2, {{85, 45}, {105, 55}});
-    script.press(frame + 2, Key::F12).press(frame + 3, Key::T); // 5: painted
+    script.press(frame + 2, Key::F12).press(frame + 3, Key::T); // 6: painted
     frame = drag(script, frame + 5, {{80, 40}, {110, 60}});
     script.press(frame, Key::C, kControl).add(frame + 2, MouseMoveEvent{140, 100}).press(frame + 3, Key::V, kControl);
-    script.press(frame + 8, Key::F12);                                      // 6: pasted on the face
-    script.press(frame + 10, Key::Delete).press(frame + 14, Key::F12);      // 7: what was pasted is selected
-    script.press(frame + 16, Key::Z, kControl).press(frame + 18, Key::F12); // 8
+    script.press(frame + 8, Key::F12);                                      // 7: pasted on the face
+    script.press(frame + 10, Key::Delete).press(frame + 14, Key::F12);      // 8: what was pasted is selected
+    script.press(frame + 16, Key::Z, kControl).press(frame + 18, Key::F12); // 9
     script.press(frame + 20, Key::Z, kControl).press(frame + 22, Key::Z, kControl).press(frame + 24, Key::F12);
     play(script, frame + 28, kCube + " --margin 8" + kFront);
 
     const Image first = pixels(shotName(1));
     const auto changes = [&](int number) { return Changes(first, pixels(shotName(number))); };
-    const Changes box = changes(2);
+    const Changes two = changes(2);
+    EXPECT_EQ(two.within(82, 72, 88, 88), 6U * 16U);
+    EXPECT_EQ(two.within(152, 72, 158, 88), 6U * 16U);
+    EXPECT_EQ(two.within(100, 0, 140, 150), 0U) << "nothing between two boxes";
+    const Changes box = changes(3);
     EXPECT_EQ(box.within(82, 42, 158, 58), 76U * 16U) << "all of the box";
     EXPECT_EQ(box.within(0, 90, 240, 150), 0U);
-    const Changes mirrored = changes(3);
+    const Changes mirrored = changes(4);
     EXPECT_EQ(mirrored.within(82, 42, 88, 58), 6U * 16U);
     EXPECT_EQ(mirrored.within(152, 42, 158, 58), 6U * 16U);
     EXPECT_EQ(mirrored.within(100, 0, 140, 150), 0U);
-    EXPECT_GE(changes(4).within(70, 20, 170, 130), 2000U) << "a face's worth of one colour";
-    const Changes pasted(pixels(shotName(5)), pixels(shotName(6)));
+    EXPECT_GE(changes(5).within(70, 20, 170, 130), 2000U) << "a face's worth of one colour";
+    const Changes pasted(pixels(shotName(6)), pixels(shotName(7)));
     EXPECT_GE(pasted.within(120, 80, 160, 120), 100U) << "the painted voxels";
     EXPECT_EQ(pasted.within(70, 30, 110, 60), 0U) << "nothing where they were copied";
-    EXPECT_EQ(shot(7), shot(5));
-    EXPECT_EQ(shot(8), shot(6)) << "the deletion is undone";
-    EXPECT_EQ(shot(9), shot(1)) << "all is undone";
+    EXPECT_EQ(shot(8), shot(6));
+    EXPECT_EQ(shot(9), shot(7)) << "the deletion is undone";
+    EXPECT_EQ(shot(10), shot(1)) << "all is undone";
 }
 
 TEST_F(DemoEditing, WhatMovesGoesOnThroughWhatWasEdited)

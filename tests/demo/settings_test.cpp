@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 // What the window keeps from run to run.
-#include "demo/app/saved_mark.h"
 #include "demo/app/scene_memory.h"
 #include "demo/app/settings.h"
 #include "support/temp_dir.h"
@@ -64,6 +63,9 @@ TEST(Settings, WhatIsWrittenIsRead)
         EXPECT_EQ(parseSettings(settingsText(settings), "s.json"), settings);
     }
     EXPECT_EQ(parseSettings(R"({"schema": "zvo.demo_settings/1"})", "s.json"), Settings{});
+    Settings latin = otherSettings();
+    latin.scenes.front().files = {"/caf\xe9.glb"};
+    EXPECT_EQ(parseSettings(settingsText(latin), "s.json").scenes.back(), latin.scenes.back());
 }
 
 TEST(Settings, AreWrittenToAFolderThatIsMade)
@@ -128,21 +130,6 @@ TEST(SceneMemory, TheLastSceneIsTheFirstAndTheOldestAreForgotten)
     ASSERT_NE(recall(memories, {"/7"}), nullptr);
     EXPECT_EQ(*recall(memories, {"/7"}), memoryOf("/7", 1));
     EXPECT_EQ(recall(memories, {"/7", "/8"}), nullptr) << "two files are another scene";
-}
-
-TEST(SavedMark, KnowsWhichStrokesAreInAFile)
-{
-    SavedMark mark;
-    EXPECT_TRUE(mark.holds({0, 0}));
-    EXPECT_FALSE(mark.holds({1, 5}));
-    EXPECT_TRUE(mark.holds({0, 5})) << "undone";
-    mark.save({2, 9});
-    EXPECT_TRUE(mark.holds({2, 9}));
-    EXPECT_FALSE(mark.holds({1, 9})) << "undone, but the file has it";
-    EXPECT_FALSE(mark.holds({0, 9}));
-    EXPECT_FALSE(mark.holds({2, 11})) << "undone, and something else in its place";
-    mark.reset();
-    EXPECT_TRUE(mark.holds({0, 0}));
 }
 
 } // namespace

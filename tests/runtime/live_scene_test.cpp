@@ -137,18 +137,23 @@ TEST(LiveScene, UndoesMovesAndStrokesInTheirOrder)
     const std::vector<std::tuple<double, double, std::size_t>> states = {{0, 1, 1}, {1, 0, 1}, {1, 0, 0}, {0, 0, 0}};
     EXPECT_EQ(state(), states[0]);
     EXPECT_EQ(live.undoCount(), 3U);
+    std::vector<EditPoint> points = {live.editPoint()};
     for (std::size_t i = 1; i < 5; ++i)
     {
         live.request(UndoStroke{});
         live.settle(0);
         EXPECT_EQ(state(), states[std::min<std::size_t>(i, 3)]) << i;
+        EXPECT_EQ(live.editPoint() != points.back(), i < 4) << i;
+        points.push_back(live.editPoint());
     }
+    EXPECT_EQ(live.editPoint(), EditPoint{});
     EXPECT_EQ(live.redoCount(), 3U);
     for (std::size_t i = 3; i-- > 0;)
     {
         live.request(RedoStroke{});
         live.settle(0);
         EXPECT_EQ(state(), states[i]) << i;
+        EXPECT_EQ(live.editPoint(), points[i]) << i;
     }
     for (int i = 0; i < 3; ++i)
     {
@@ -157,6 +162,7 @@ TEST(LiveScene, UndoesMovesAndStrokesInTheirOrder)
     move(second);
     EXPECT_EQ(live.undoCount(), 1U);
     EXPECT_EQ(live.redoCount(), 0U) << "neither the moves nor the stroke";
+    EXPECT_EQ(std::ranges::count(points, live.editPoint()), 0) << "as many entries, but not the same";
     live.request(UndoStroke{});
     live.beginFrame();
     device().run([&](vk::FrameGraph& graph) { live.update(graph, 0); });

@@ -4,7 +4,6 @@
 #include "common/signals.h"
 #include "demo/app/editor.h"
 #include "demo/app/options.h"
-#include "demo/app/saved_mark.h"
 #include "demo/app/scene_memory.h"
 #include "demo/app/screenshot.h"
 #include "demo/app/settings.h"
@@ -130,6 +129,7 @@ private:
 
     void drawStill();
     bool beginStill();
+    void refuseStill(const Error& error);
     void takeDevelopment();
     FrameInFlight tracingFrame();
     void addSample();
@@ -184,6 +184,7 @@ private:
     void openDialog();
     void saveDialog();
     bool drawDialogs();
+    void drawLossQuestion();
     [[nodiscard]] bool hasDialog() const;
     void loseStrokes(std::function<void()> action);
     void quit();
@@ -191,7 +192,6 @@ private:
     void rememberScene();
     bool recallScene();
     [[nodiscard]] std::string editedName() const;
-    [[nodiscard]] EditPoint editPoint() const;
     [[nodiscard]] bool hasUnsaved() const;
     void showTitle();
     void storeBookmark(std::size_t number);
@@ -238,8 +238,8 @@ private:
     std::deque<FrameInFlight> m_frames_in_flight;
 
     Editor m_editor;
-    VoxelClip m_clip; // what was copied, of this world
-    SavedMark m_saved_mark;
+    VoxelClip m_clip;                   // what was copied, of this world
+    EditPoint m_saved_point;            // what is in a file
     std::filesystem::path m_saved_file; // for Ctrl+S; empty: a new one
     FileDialog m_file_dialog;
     std::function<void()> m_after_loss; // what the user is asked about, as strokes are lost by it; null: nothing

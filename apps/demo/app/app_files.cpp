@@ -52,14 +52,9 @@ std::string App::editedName() const
     return (stem.empty() ? "zvo" : stem) + "-edited";
 }
 
-EditPoint App::editPoint() const
-{
-    return {m_world->scene.undoCount(), m_world->scene.changeCount()};
-}
-
 bool App::hasUnsaved() const
 {
-    return m_editor.isBusy() || !m_saved_mark.holds(editPoint());
+    return m_editor.isBusy() || m_world->scene.editPoint() != m_saved_point;
 }
 
 // Saves to the file that was chosen before, or to a new one in the working folder.
@@ -94,9 +89,10 @@ bool App::write(const std::filesystem::path& file, bool overwrites)
         output.finish();
         is_written = true;
         note("saved " + file.string());
-        if (format == "zvo" || format == "vox") // which can be opened again
+        const bool can_be_opened = format == "zvo" || format == "vox";
+        if (can_be_opened && !m_editor.isBusy())
         {
-            m_saved_mark.save(editPoint());
+            m_saved_point = m_world->scene.editPoint();
         }
     }
     catch (const std::exception& error)
@@ -159,10 +155,15 @@ void App::saveDialog()
     }
 }
 
-// Returns whether a dialog is open.
+// The question whether strokes may be lost, before the file dialog: of two popups Dear ImGui shows neither. Returns
+// whether a dialog is open.
 bool App::drawDialogs()
 {
-    if (const std::optional<std::filesystem::path> file = m_file_dialog.show())
+    if (m_after_loss)
+    {
+        drawLossQuestion();
+    }
+    else if (const std::optional<std::filesystem::path> file = m_file_dialog.show())
     {
         if (!m_file_dialog.writes())
         {
@@ -173,29 +174,32 @@ bool App::drawDialogs()
             whenFree([this, file = *file] { saveAs(file); });
         }
     }
-    if (m_after_loss)
-    {
-        if (const std::optional<LossAnswer> answer = lossQuestion())
-        {
-            const std::function<void()> action = std::exchange(m_after_loss, nullptr);
-            if (answer == LossAnswer::Discard)
-            {
-                action();
-            }
-            else if (answer == LossAnswer::Save)
-            {
-                whenFree(
-                    [this, action]
-                    {
-                        if (save())
-                        {
-                            action();
-                        }
-                    });
-            }
-        }
-    }
     return hasDialog();
+}
+
+void App::drawLossQuestion()
+{
+    const std::optional<LossAnswer> answer = lossQuestion();
+    if (!answer)
+    {
+        return;
+    }
+    const std::function<void()> action = std::exchange(m_after_loss, nullptr);
+    if (answer == LossAnswer::Discard)
+    {
+        action();
+    }
+    else if (answer == LossAnswer::Save)
+    {
+        whenFree(
+            [this, action]
+            {
+                if (save())
+                {
+                    action();
+                }
+            });
+    }
 }
 
 bool App::hasDialog() const

@@ -70,7 +70,7 @@ double App::restSeconds() const
     const bool is_scripted = m_replay || m_options.frame_count;
     if (m_is_first_world)
     {
-        return kLoadingSeconds;
+        return m_makes_world ? 0 : kLoadingSeconds;
     }
     const bool rests = m_is_refined && !m_quits && m_redraws == 0 && m_refinement.isStill() && isRefinedEnough();
     if (is_scripted || !rests)
@@ -128,12 +128,7 @@ bool App::beginStill()
     }
     catch (const Error& error)
     {
-        if (error.code() != ErrorCode::Memory)
-        {
-            throw;
-        }
-        cli::talkError(error);
-        m_refinement.refuse();
+        refuseStill(error);
         return false;
     }
     const bool is_path = m_refined.options.shownIntegrator() == Integrator::Path;
@@ -143,6 +138,18 @@ bool App::beginStill()
     m_is_refined = true;
     measure(true);
     return true;
+}
+
+// Without memory for the full size the picture stays as it is while the camera moves. Throws other errors again.
+void App::refuseStill(const Error& error)
+{
+    if (error.code() != ErrorCode::Memory)
+    {
+        throw;
+    }
+    cli::talkError(error);
+    m_is_refined = false;
+    m_refinement.refuse();
 }
 
 // Takes the options of development that the user has chosen. Without memory to denoise, that choice is taken back.
@@ -197,6 +204,13 @@ void App::addSample()
         m_is_within = false;
         m_is_refined = false;
         m_wants_focus = m_wants_focus || frame.looks.focus;
+        return;
+    }
+    catch (const Error& error)
+    {
+        m_is_within = false;
+        refuseStill(error);
+        m_renderer.forget();
         return;
     }
     m_has_samples = true;

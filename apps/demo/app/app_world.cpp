@@ -197,7 +197,7 @@ void App::show(std::unique_ptr<World> world, const WorldOptions& options)
     m_editor.release();
     m_clip = {};
     m_inspected.reset();
-    m_saved_mark.reset();
+    m_saved_point = {};
     m_saved_file.clear();
     m_camera.setSubject(m_world->subject);
     if (is_same)

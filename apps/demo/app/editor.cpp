@@ -45,12 +45,11 @@ void Editor::handle(const InputEvent& event, const ViewCamera& camera, const glm
             m_has_reached = false;
             m_was_outside = false;
             m_has_grabbed = false;
-            m_has_shift = button->modifiers.shift;
+            m_has_shift = false;
             m_first_voxel.reset();
             m_last_voxel.reset();
         }
-        const bool draws = m_used.tool == Tool::Brush && m_used.form == BrushForm::Stroke;
-        m_stroke.press(m_pointer, draws && button->modifiers.shift);
+        m_stroke.press(m_pointer, button->modifiers.shift);
     }
 }
 
@@ -135,6 +134,11 @@ void Editor::paint(std::span<const gpu::PixelReport> reports, World& world)
     const Grid& grid = world.scene.tree().grid;
     for (const gpu::PixelReport& report : reports)
     {
+        if (m_stroke.nextIsPress())
+        {
+            finishBox(world); // a press continues the stroke before it, but is a box of its own
+            m_has_shift = m_stroke.nextEndsLine();
+        }
         const bool is_voxel = report.hit != 0 && report.level == grid.nodeLevels();
         const std::optional<glm::ivec3> center = is_voxel ? dabCenter(report, grid) : std::nullopt;
         const DabSpacing spacing = center ? spacingAt(*center, grid) : DabSpacing{};
@@ -165,16 +169,16 @@ void Editor::stamp(const glm::ivec3& voxel, World& world)
     for (const glm::ivec3& image : imagesOf(voxel, m_used.mirror, grid))
     {
         m_dabs.push_back(image);
-        if (reaches(m_used.brushAt(image), grid))
+        if (noteReach(m_used.brushAt(image), grid))
         {
             world.scene.request(m_used.brushAt(image));
         }
     }
 }
 
-// Whether a brush is to be applied. A brush that fills from outside of the grid would make nothing but what is hidden
-// behind the face that it is used on.
-bool Editor::reaches(const Brush& brush, const Grid& grid)
+// Notes whether a brush reaches the grid, and returns whether it is to be applied. A brush that fills from outside of
+// the grid would make nothing but what is hidden behind the face that it is used on.
+bool Editor::noteReach(const Brush& brush, const Grid& grid)
 {
     const VoxelBox whole = {glm::ivec3(0), glm::ivec3(grid.resolution()) - 1};
     const bool is_shape = brush.stamp == nullptr;
@@ -244,20 +248,23 @@ void Editor::finishStroke(World& world)
         world.scene.request(EndStroke{});
         m_has_missed = !m_dabs.empty() && !m_has_reached;
     }
-    else if (m_first_voxel && m_last_voxel)
-    {
-        finishBox(world);
-    }
+    finishBox(world);
     sendBehind(world);
 }
 
-// The stroke went from a voxel to another one.
+// The pointer went from a voxel to another one while the button was held.
 void Editor::finishBox(World& world)
 {
-    const VoxelBox box = VoxelBox::of(*m_first_voxel, *m_last_voxel);
+    const std::optional<glm::ivec3> first = std::exchange(m_first_voxel, std::nullopt);
+    const std::optional<glm::ivec3> last = std::exchange(m_last_voxel, std::nullopt);
+    if (!first || !last)
+    {
+        return;
+    }
+    const VoxelBox box = VoxelBox::of(*first, *last);
     if (m_used.tool == Tool::Select && m_has_shift && state.selection)
     {
-        order(MoveOrder{*state.selection, *m_last_voxel - *m_first_voxel});
+        order(MoveOrder{*state.selection, *last - *first});
     }
     else if (m_used.tool == Tool::Select)
     {
@@ -265,13 +272,13 @@ void Editor::finishBox(World& world)
     }
     else if (m_used.tool == Tool::Brush && m_used.form == BrushForm::Box)
     {
-        const Brush brush = m_used.boxBetween(*m_first_voxel, *m_last_voxel);
+        const Brush brush = m_used.boxBetween(*first, *last);
         requestStroke({&brush, 1}, m_used.mirror, world);
         m_has_missed = !m_has_reached;
     }
-    else if (m_used.tool == Tool::Brush)
+    else if (m_used.tool == Tool::Brush && m_used.form == BrushForm::Flood)
     {
-        order(FloodOrder{m_used, *m_first_voxel});
+        order(FloodOrder{m_used, *first});
     }
 }
 
@@ -320,7 +327,7 @@ void Editor::requestStroke(std::span<const Brush> brushes, const Mirror& mirror,
     {
         for (const Brush& image : imagesOf(brush, mirror, grid))
         {
-            const std::vector<Brush> parts = reaches(image, grid) ? partsOf(image, grid) : std::vector<Brush>();
+            const std::vector<Brush> parts = noteReach(image, grid) ? partsOf(image, grid) : std::vector<Brush>();
             for (const Brush& part : parts)
             {
                 world.scene.request(part);

@@ -134,7 +134,7 @@ private:
     [[nodiscard]] DabSpacing spacingAt(const glm::ivec3& voxel, const Grid& grid) const;
     void paint(std::span<const gpu::PixelReport> reports, World& world);
     void stamp(const glm::ivec3& voxel, World& world);
-    bool reaches(const Brush& brush, const Grid& grid);
+    bool noteReach(const Brush& brush, const Grid& grid);
     void finishBox(World& world);
     void sendBehind(World& world);
     void takeColor(const gpu::PixelReport& report);
@@ -152,9 +152,9 @@ private:
     bool m_has_grabbed = false;        // in the stroke, maybe nothing
     std::vector<EditRequest> m_behind; // the stroke
     std::optional<Drag> m_drag;
-    std::optional<glm::ivec3> m_first_voxel; // of the stroke
+    std::optional<glm::ivec3> m_first_voxel; // since the last press
     std::optional<glm::ivec3> m_last_voxel;
-    bool m_has_shift = false; // the stroke
+    bool m_has_shift = false; // the last press
     std::deque<EditOrder> m_orders;
     ViewCamera m_camera;
     glm::dvec2 m_size{1.0};

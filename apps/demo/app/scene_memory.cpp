@@ -16,7 +16,6 @@ namespace
 
 using Json = nlohmann::ordered_json;
 
-constexpr double kExposureMax = 1000;
 constexpr double kHalfHeightMax = 1e30;
 
 Json vectorJson(const glm::dvec3& vector)
@@ -119,6 +118,10 @@ SceneMemory readMemory(const JsonCursor& object)
     {
         memory.files.emplace_back(file.text());
     }
+    if (memory.files.empty())
+    {
+        throw object.at("files").mismatch("at least one file");
+    }
     memory.camera = readCamera(object.at("camera"));
     for (const JsonCursor& bookmark : object.at("bookmarks").items())
     {
@@ -128,7 +131,7 @@ SceneMemory readMemory(const JsonCursor& object)
     }
     static_cast<void>(object.at("sun").direction());
     memory.to_sun = object.at("sun").vector();
-    memory.exposure = static_cast<float>(object.at("exposure").positive(kExposureMax));
+    memory.exposure = static_cast<float>(object.at("exposure").positive(ViewState::kPositiveMax));
     return memory;
 }
 

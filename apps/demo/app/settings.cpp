@@ -148,7 +148,7 @@ std::string settingsText(const Settings& settings)
     {
         json["scenes"].push_back(memoryJson(scene));
     }
-    return json.dump(2) + "\n";
+    return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n"; // names of files may be no UTF-8
 }
 
 Settings readSettings(const std::filesystem::path& file)

@@ -12,6 +12,7 @@
 #include <imgui.h>
 
 #include <algorithm>
+#include <functional>
 #include <utility>
 
 namespace zvo::demo
@@ -24,7 +25,6 @@ using Json = nlohmann::ordered_json;
 
 constexpr const char* kViewGroup = "View";
 constexpr const char* kWindowGroup = "Window";
-constexpr double kPositiveMax = 1000; // of exposures and pixels in the settings' file
 
 // How values are read from an option and from the settings' file, and written to the file.
 template <typename T> struct Form
@@ -63,28 +63,30 @@ Form<std::uint32_t> wholeUpTo(std::uint32_t most)
     return {cli::integerIn(0, most), [most](const JsonCursor& value) { return value.whole(0, most); }};
 }
 
+// An option's number above 0 and at most `most`.
+float parseUpTo(double most, std::string_view option, const std::string& argument)
+{
+    const float number = cli::parsePositive(option, argument);
+    if (double{number} > most)
+    {
+        throw Error(ErrorCode::Usage,
+                    fmt::format("{} {}: expected a number above 0 and at most {}", option, argument, most));
+    }
+    return number;
+}
+
 // A number above 0; in the file, 0 is left out.
 Form<float> positive()
 {
-    return {cli::parsePositive,
-            [](const JsonCursor& value) { return static_cast<float>(value.positive(kPositiveMax)); },
+    return {std::bind_front(parseUpTo, ViewState::kPositiveMax),
+            [](const JsonCursor& value) { return static_cast<float>(value.positive(ViewState::kPositiveMax)); },
             [](float value) { return value > 0.0F ? Json(double{value}) : Json(); }};
 }
 
 // A factor above 0 and at most 1, or nothing.
 Form<std::optional<double>> scale()
 {
-    const auto parse = [](std::string_view option, const std::string& argument) -> std::optional<double>
-    {
-        const float factor = cli::parsePositive(option, argument);
-        if (factor > 1.0F)
-        {
-            throw Error(ErrorCode::Usage,
-                        fmt::format("{} {}: expected a number above 0 and at most 1", option, argument));
-        }
-        return double{factor};
-    };
-    return {parse, [](const JsonCursor& value) { return std::optional(value.positive(1)); },
+    return {std::bind_front(parseUpTo, 1.0), [](const JsonCursor& value) { return std::optional(value.positive(1)); },
             [](const std::optional<double>& factor) { return factor ? Json(*factor) : Json(); }};
 }
 
@@ -92,7 +94,7 @@ Form<std::optional<double>> scale()
 Form<float> ofScene()
 {
     return {cli::parsePositive,
-            [](const JsonCursor& value) { return static_cast<float>(value.positive(kPositiveMax)); },
+            [](const JsonCursor& value) { return static_cast<float>(value.positive(ViewState::kPositiveMax)); },
             [](float) { return Json(); }};
 }
 

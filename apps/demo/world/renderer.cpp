@@ -30,9 +30,9 @@ void Renderer::reserve(const DeviceTree& tree, const Picture& picture)
     {
         m_renderer.dropSamples();
     }
-    m_options = picture.options;
     m_has_hits = false;
-    m_renderer.reserve(tree, m_options);
+    m_renderer.reserve(tree, picture.options);
+    m_options = picture.options;
 }
 
 std::uint64_t Renderer::pictureBytes() const

@@ -47,6 +47,10 @@ public:
     /// Takes what is at the oldest points that have no answer yet: voxels, or nothing. Returns the centres of dabs.
     std::vector<glm::ivec3> found(std::span<const std::optional<glm::ivec3>> voxels, const DabSpacing& spacing);
 
+    /// Whether the next answer is of a point at which the button was pressed; and whether a line ends there.
+    [[nodiscard]] bool nextIsPress() const { return m_awaited.front() != Joint::Before; }
+    [[nodiscard]] bool nextEndsLine() const { return m_awaited.front() == Joint::Line; }
+
     /// The centre of the last dab, to which the next one is joined.
     [[nodiscard]] const std::optional<glm::ivec3>& lastDab() const { return m_last_dab; }
 

@@ -25,6 +25,8 @@ struct ViewState
     std::optional<double> internal_scale; // of the window's edges; not given: as fast as the device allows
     vk::PresentMode present_mode = vk::PresentMode::Fifo;
 
+    static constexpr double kPositiveMax = 1000; // of exposures and pixels
+
     bool operator==(const ViewState&) const = default;
 };
 
