@@ -56,10 +56,6 @@ HdrImage blurredMap(std::uint32_t width, std::uint32_t height, std::span<const g
         for (std::uint32_t other = 0; other < rows; ++other)
         {
             const double other_polar = std::numbers::pi * (other + 0.5) / rows;
-            if (std::cos(polar - other_polar) < farthest)
-            {
-                continue;
-            }
             std::uint32_t reach = 0; // columns to either side
             for (; reach <= columns / 2; ++reach)
             {
@@ -72,6 +68,10 @@ HdrImage blurredMap(std::uint32_t width, std::uint32_t height, std::span<const g
                 }
                 weights[reach] =
                     static_cast<float>(std::sin(other_polar) * std::exp((cosine - 1.0) / (deviation * deviation)));
+            }
+            if (reach == 0) // the whole row is too far away
+            {
+                continue;
             }
             const glm::vec3* const line = &map.texels[std::size_t{other} * columns];
             const std::uint32_t count = std::min(2 * reach - 1, columns); // the nearest column once, others twice

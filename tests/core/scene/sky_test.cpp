@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <vector>
@@ -94,6 +95,40 @@ TEST(BlurredMap, KeepsItsLightAndSpreadsIt)
     EXPECT_LT(blurredMap(2 * kWidth, 2 * kHeight, std::vector<glm::vec3>(4 * even.size()), 0.5).texels.size(),
               even.size())
         << "no more texels than the blur needs";
+}
+
+// Here a row stands exactly where the blur ends: its texels hardly count, whether or not they are in.
+TEST(BlurredMap, IsTheMeanOfWhatIsNear)
+{
+    constexpr std::uint32_t kWidth = 32;
+    constexpr std::uint32_t kHeight = 16;
+    constexpr double kDeviation = std::numbers::pi / 8; // two rows
+    std::vector<glm::vec3> texels;
+    std::vector<glm::dvec3> directions;
+    for (std::uint32_t i = 0; i < kWidth * kHeight; ++i)
+    {
+        texels.emplace_back(i * 7 % 16 < 8, i / kWidth % 2, i % 101 == 50);
+        const double polar = std::numbers::pi * (i / kWidth + 0.5) / kHeight;
+        const double turn = 2.0 * std::numbers::pi * (i % kWidth + 0.5) / kWidth;
+        directions.emplace_back(std::sin(polar) * std::cos(turn), std::cos(polar), std::sin(polar) * std::sin(turn));
+    }
+    const HdrImage map = blurredMap(kWidth, kHeight, texels, kDeviation);
+    ASSERT_EQ(map.texels.size(), texels.size());
+    for (std::size_t i = 0; i < texels.size(); ++i)
+    {
+        glm::dvec3 sum(0.0);
+        double total = 0;
+        for (std::size_t j = 0; j < texels.size(); ++j)
+        {
+            const double angle = std::acos(std::clamp(glm::dot(directions[i], directions[j]), -1.0, 1.0));
+            const double area = std::hypot(directions[j].x, directions[j].z);
+            const double weight =
+                angle > 3.0 * kDeviation ? 0.0 : area * std::exp((std::cos(angle) - 1.0) / (kDeviation * kDeviation));
+            sum += weight * glm::dvec3(texels[j]);
+            total += weight;
+        }
+        ASSERT_LT(glm::distance(glm::dvec3(map.texels[i]), sum / total), 5e-3) << "row " << i / kWidth;
+    }
 }
 
 } // namespace
