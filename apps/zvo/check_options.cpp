@@ -52,6 +52,7 @@ void checkTreeOptions(const RenderOptions& options)
         {"--scenes", voxels.scenes_folder.has_value()},
         {"--time", voxels.time.has_value() && !options.camera_path},
         {"--resolution", voxels.depth.has_value()},
+        {"--margin", voxels.margin.has_value()},
         {"--coverage", voxels.coverage != plain.coverage},
         {"--attributes", voxels.attributes != plain.attributes},
         {"--bounds", voxels.bounds.has_value()},

@@ -212,6 +212,7 @@ TEST_F(CliTree, RefusalsAreOneLineWithTheirExitCode)
         {"inspect broken.vox", 3, "cut short"},
         {"validate broken.vox", 3, "cut short"},
         {"render broken.vox -o a.png --resolution 64", 2, "--resolution does not go with broken.vox"},
+        {"render broken.vox -o a.png --margin 8", 2, "--margin does not go with broken.vox"},
         {"render cube.glb broken.vox -o a.png", 2, "broken.vox stands alone"},
         {"convert svo.zvo -o a.stl", 2, ".morton"},
         {"convert svo.zvo -o svo.zvo -f", 2, "overwritten"},
