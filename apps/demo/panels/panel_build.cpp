@@ -17,6 +17,13 @@ constexpr std::uint32_t kDepthMax = 12;
 constexpr std::array<const char*, 2> kStructureNames = {"octree", "DAG"};
 constexpr std::array<const char*, 2> kCoverageNames = {"thin", "conservative"};
 
+// 0 is none, as a scene file's own grid is used then.
+void setMargin(cli::VoxelOptions& options, std::uint32_t margin)
+{
+    options.margin = margin != 0 ? std::optional(margin) : std::nullopt;
+}
+
+// The margin stays the same part of the grid.
 bool chooseResolution(WorldOptions& options, std::uint32_t depth)
 {
     bool is_chosen = false;
@@ -27,6 +34,7 @@ bool chooseResolution(WorldOptions& options, std::uint32_t depth)
             if (ImGui::Selectable(fmt::format("{}", 1U << choice).c_str(), choice == depth) && choice != depth)
             {
                 options.voxels.depth = choice;
+                setMargin(options.voxels, (options.voxels.margin.value_or(0) << choice) >> depth);
                 is_chosen = true;
             }
         }
@@ -46,7 +54,7 @@ bool chooseMargin(WorldOptions& options, std::uint32_t resolution)
             const std::uint32_t choice = part == 0 ? 0 : resolution / part;
             if (ImGui::Selectable(fmt::format("{} voxels", choice).c_str(), choice == margin) && choice != margin)
             {
-                options.voxels.margin = choice;
+                setMargin(options.voxels, choice);
                 options.voxels.bounds.reset();
                 options.voxels.grid_position.reset();
                 is_chosen = true;
