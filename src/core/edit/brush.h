@@ -58,10 +58,13 @@ struct Brush
     /// Whether a voxel is under a brush without stamp and part.
     [[nodiscard]] bool covers(const gpu::ivec3& voxel) const
     {
-        const gpu::ivec3 away = glm::abs(voxel - center);
+        if (!box().contains(voxel)) // far away, squares would overflow
+        {
+            return false;
+        }
+        const gpu::ivec3 away = voxel - center;
         const auto reach = static_cast<int>(radius);
-        const bool is_in_sphere = away.x * away.x + away.y * away.y + away.z * away.z <= reach * (reach + 1);
-        return box().contains(voxel) && (shape == BrushShape::Box || is_in_sphere);
+        return shape == BrushShape::Box || away.x * away.x + away.y * away.y + away.z * away.z <= reach * (reach + 1);
     }
 };
 
