@@ -16,9 +16,10 @@ inline std::uint32_t encodeRgb9e5(const gpu::vec3& color)
 {
     constexpr int kOneExponent = 16; // of mantissas from 256 on for values from 1 on
     constexpr float kMantissaMax = 511.0F;
-    const float most = std::max({color.r, color.g, color.b, 1e-6F});
-    const int exponent = std::clamp(kOneExponent + std::ilogb(most), 0, 31);
-    const gpu::vec3 scaled = std::ldexp(1.0F, 24 - exponent) * color;
+    const gpu::vec3 bounded = glm::min(color, 128 * kMantissaMax); // it may be infinite
+    const float most = std::max({bounded.r, bounded.g, bounded.b, 1e-6F});
+    const int exponent = std::max(kOneExponent + std::ilogb(most), 0);
+    const gpu::vec3 scaled = std::ldexp(1.0F, 24 - exponent) * bounded;
     const gpu::uvec3 mantissa(glm::min(glm::round(scaled), kMantissaMax));
     return mantissa.r | mantissa.g << 9U | mantissa.b << 18U | static_cast<std::uint32_t>(exponent) << 27U;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // A brush on voxels, case by case.
 #include "core/edit/voxel_clip.h"
+#include "core/tree/rgb9e5.h"
 #include "support/dynamic_updates.h"
 #include "support/edit_machine.h"
 #include "support/engine_device.h"
@@ -9,6 +10,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -75,6 +77,22 @@ TEST(Edit, ALongBoxIsSeveralDabs)
     }
     EXPECT_EQ(volume, std::uint64_t{495} * 5 * 8);
     EXPECT_TRUE(partsOf({.center = {-5, 0, 0}, .radius = 4}, grid).empty());
+}
+
+TEST(Edit, ASphereCoversNothingFarAway)
+{
+    const Brush brush = {.center = {100, 100, 100}, .radius = 3};
+    EXPECT_TRUE(brush.covers({102, 102, 102}));
+    EXPECT_FALSE(brush.covers({103, 102, 102}));
+    EXPECT_FALSE(brush.covers({100 + 65'536, 100, 100})) << "whose square is 0 in 32 bits";
+}
+
+TEST(Edit, EmissionBeyondTheBrightestIsTheBrightest)
+{
+    const std::uint32_t brightest = encodeRgb9e5(gpu::vec3(65408.0F, 0.0F, 128.0F));
+    EXPECT_EQ(brightest, 511U | 1U << 18U | 31U << 27U);
+    EXPECT_EQ(encodeRgb9e5(gpu::vec3(INFINITY, 0.0F, 128.0F)), brightest);
+    EXPECT_EQ(encodeRgb9e5(gpu::vec3(1e30F, 0.0F, 128.0F)), brightest);
 }
 
 // Along x and y a code's coordinate changes its sign; along z it is folded to the other side.
