@@ -97,8 +97,8 @@ void chooseSelection(std::optional<VoxelBox>& selection, int resolution)
         return tell("drag over voxels to select a box");
     }
     VoxelBox box = *selection;
-    const bool is_lo = ImGui::DragInt3("from", &box.lo.x, 0.2F, 0, resolution - 1);
-    const bool is_hi = ImGui::DragInt3("to", &box.hi.x, 0.2F, 0, resolution - 1);
+    const bool is_lo = ImGui::DragInt3("from", &box.lo.x, 0.2F, 0, resolution - 1, "%d", ImGuiSliderFlags_AlwaysClamp);
+    const bool is_hi = ImGui::DragInt3("to", &box.hi.x, 0.2F, 0, resolution - 1, "%d", ImGuiSliderFlags_AlwaysClamp);
     if (is_lo || is_hi)
     {
         selection = VoxelBox::of(box.lo, box.hi);
