@@ -15,14 +15,15 @@ namespace
 constexpr Modifiers kControlShift = {true, true, false};
 
 /// Presses the left button at the first point, moves by one point a frame, and releases it. Returns the next frame.
-std::uint64_t drag(Script& script, std::uint64_t frame, const std::vector<MouseMoveEvent>& points)
+std::uint64_t drag(Script& script, std::uint64_t frame, const std::vector<MouseMoveEvent>& points,
+                   Modifiers modifiers = {})
 {
-    script.add(frame, points.front()).add(frame, MouseButtonEvent{MouseButton::Left, true, {}});
+    script.add(frame, points.front()).add(frame, MouseButtonEvent{MouseButton::Left, true, modifiers});
     for (std::size_t i = 1; i < points.size(); ++i)
     {
         script.add(++frame, points[i]);
     }
-    script.add(++frame, MouseButtonEvent{MouseButton::Left, false, {}});
+    script.add(++frame, MouseButtonEvent{MouseButton::Left, false, modifiers});
     return frame + 2; // the pixel under the pointer is known a frame later
 }
 
@@ -226,7 +227,10 @@ TEST_F(DemoEditing, BoxesMirrorsFloodsAndTheSelectionAreEditsThatAreUndone)
     script.press(frame + 10, Key::Delete).press(frame + 14, Key::F12);      // 8: what was pasted is selected
     script.press(frame + 16, Key::Z, kControl).press(frame + 18, Key::F12); // 9
     script.press(frame + 20, Key::Z, kControl).press(frame + 22, Key::Z, kControl).press(frame + 24, Key::F12);
-    play(script, frame + 28, kCube + " --margin 8" + kFront);
+    frame = drag(script, frame + 26, {{80, 40}, {110, 60}});
+    frame = drag(script, frame, {{180, 75}, {60, 75}}, kShift); // out of the grid
+    script.press(frame + 2, Key::F12);
+    play(script, frame + 6, kCube + " --margin 8" + kFront);
 
     const Image first = pixels(shotName(1));
     const auto changes = [&](int number) { return Changes(first, pixels(shotName(number))); };
@@ -248,6 +252,7 @@ TEST_F(DemoEditing, BoxesMirrorsFloodsAndTheSelectionAreEditsThatAreUndone)
     EXPECT_EQ(shot(8), shot(6));
     EXPECT_EQ(shot(9), shot(7)) << "the deletion is undone";
     EXPECT_EQ(shot(10), shot(1)) << "all is undone";
+    EXPECT_EQ(shot(11), shot(1)) << "what would leave the grid is not moved";
 }
 
 TEST_F(DemoEditing, WhatMovesGoesOnThroughWhatWasEdited)

@@ -169,14 +169,23 @@ void App::carryOut(const MoveOrder& order)
         return note(
             fmt::format("too large a box to move: {} cells of at most {}", order.box.volume(), VoxelClip::kCellsMax));
     }
+    const Grid& grid = m_world->scene.tree().grid;
+    const VoxelBox target = order.box.movedBy(order.by);
+    for (const Brush& image : imagesOf(carved(target), m_editor.state.mirror, grid))
+    {
+        if (image.box().within(wholeGrid(grid)) != image.box())
+        {
+            return note("the grid ends there: nothing is moved");
+        }
+    }
     const VoxelClip clip = m_world->scene.copyVoxels(order.box);
     std::vector<Brush> brushes = {carved(order.box)};
-    for (const Brush& brush : placed(clip, order.box.lo + order.by, m_world->scene.tree().grid))
+    for (const Brush& brush : placed(clip, target.lo, grid))
     {
         brushes.push_back(brush);
     }
     m_editor.requestStroke(brushes, m_editor.state.mirror, *m_world);
-    m_editor.state.selection = order.box.movedBy(order.by);
+    m_editor.state.selection = target;
     note(countOf(clip.voxelCount()) + " moved");
 }
 
