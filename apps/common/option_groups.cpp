@@ -164,6 +164,29 @@ void addVoxelOptions(CLI::App& app, VoxelOptions& options, const std::string& al
         });
 }
 
+void addEnvironmentOptions(CLI::App& app, EnvironmentOptions& options, const std::string& also)
+{
+    addValue(app, "--environment", options.map, parsePath, "FILE",
+             "a map of the light from all directions, .hdr or .exr, in place of sun and sky, or none for no light" +
+                 also);
+    addValue(app, "--environment-turn", options.turn, parseDegrees, "DEGREES",
+             "turns the map about the vertical, counterclockwise from above (default 0)");
+    addValue(app, "--environment-strength", options.strength, parsePositive, "FACTOR",
+             "factor for the map's light (default 1)");
+    addValue(app, "--background-blur", options.background_blur, parseBlur, "DEGREES",
+             "blurs what the camera sees of the map, above 0 to 90; its light stays (default: sharp)");
+}
+
+CLI::Option* addTimeOfDayOption(CLI::App& app, const std::function<void(const glm::dvec3& to_sun)>& use)
+{
+    return app
+        .add_option_function<std::string>(
+            "--time-of-day", [use](const std::string& text) { use(parseTimeOfDay("--time-of-day", text)); },
+            "the sun as at this time, 45 degrees north at an equinox: it rises at 6:00 in the east (+x), and stands in "
+            "the south (+z) at 12:00")
+        ->type_name("HH:MM");
+}
+
 void addOutputOptions(CLI::App& app, OutputOptions& options, const char* what)
 {
     addText(app, "-o,--output", options.path, "FILE", what)->required()->group("Output");

@@ -10,6 +10,8 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <functional>
+#include <glm/glm.hpp>
 #include <initializer_list>
 #include <optional>
 #include <string>
@@ -62,6 +64,11 @@ void addMaterialOptions(CLI::App& app,
 
 /// The options of what is voxelized and how, except attributes. also: what else SCENE may be.
 void addVoxelOptions(CLI::App& app, VoxelOptions& options, const std::string& also = "");
+
+/// also: what else goes with a map.
+void addEnvironmentOptions(CLI::App& app, EnvironmentOptions& options, const std::string& also = "");
+
+CLI::Option* addTimeOfDayOption(CLI::App& app, const std::function<void(const glm::dvec3& to_sun)>& use);
 
 /// what: the name of what is written to the output.
 void addOutputOptions(CLI::App& app, OutputOptions& options, const char* what);

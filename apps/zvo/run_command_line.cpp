@@ -124,17 +124,7 @@ void addPathOptions(CLI::App& render, RenderOptions& options)
              "radius of the lens of the camera, in world units (default: a pinhole)");
     addValue(render, "--focus", options.focus, parsePositive, "DISTANCE",
              "distance of the plane that is in focus, in world units (default: of what is at the picture's middle)");
-    addValue(
-        render, "--environment", options.environment.map, parsePath, "FILE",
-        "a map of the light from all directions, .hdr or .exr, in place of sun and sky, or none for no light; --sun "
-        "adds "
-        "the sun");
-    addValue(render, "--environment-turn", options.environment.turn, parseDegrees, "DEGREES",
-             "turns the map about the vertical, counterclockwise from above (default 0)");
-    addValue(render, "--environment-strength", options.environment.strength, parsePositive, "FACTOR",
-             "factor for the map's light (default 1)");
-    addValue(render, "--background-blur", options.environment.background_blur, parseBlur, "DEGREES",
-             "blurs what the camera sees of the map, above 0 to 90; its light stays (default: sharp)");
+    addEnvironmentOptions(render, options.environment, "; --sun adds the sun");
     render.add_flag("--denoise", options.frame.denoise,
                     "smooth the noise of few paths, but not edges; in sequences with the help of earlier pictures");
     render.add_flag("--aov", options.aovs,
@@ -172,11 +162,7 @@ void addOptions(CLI::App& render, RenderOptions& options)
         render, "--occlusion", options.frame.trace.occlusion_rays, integerIn(0, kOcclusionRaysMax), "RAYS",
         fmt::format("rays a sample that find how much of the sky it sees, 0 to {} (default 8)", kOcclusionRaysMax));
     addValue(render, "--sun", options.to_sun, parseDirection, "x,y,z", "direction to the sun (default -0.6,0.75,0.45)");
-    addValue(
-        render, "--time-of-day", options.to_sun, parseTimeOfDay, "HH:MM",
-        "the sun as at this time, 45 degrees north at an equinox: it rises at 6:00 in the east (+x), and stands in "
-        "the south (+z) at 12:00")
-        ->excludes("--sun");
+    addTimeOfDayOption(render, [&options](const glm::dvec3& to_sun) { options.to_sun = to_sun; })->excludes("--sun");
     addPathOptions(render, options);
     addValue(
         render, "--exposure", options.frame.exposure,

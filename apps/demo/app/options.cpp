@@ -85,32 +85,18 @@ void addViewOptions(CLI::App& app, DemoOptions& options)
 {
     constexpr const char* kGroup = "View";
     cli::addCameraOption(app, options.camera);
-    app.get_option("--camera")->group(kGroup);
     cli::addValue(app, "--camera-path", options.camera_path, cli::parsePath, "FILE",
                   "fly along the cameras of a file, as zvo render does")
         ->group(kGroup);
-    app.add_option_function<std::string>(
-           "--time-of-day",
-           [&options](const std::string& text)
-           {
-               const glm::dvec3 to_sun = cli::parseTimeOfDay("--time-of-day", text);
-               options.view_changes.emplace_back([to_sun](ViewState& view) { view.frame.trace.to_sun = to_sun; });
-           },
-           "the sun as at this time, 45 degrees north at an equinox, as zvo render has it")
-        ->type_name("HH:MM")
-        ->group(kGroup);
-    cli::addValue(app, "--environment", options.environment.map, cli::parsePath, "FILE",
-                  "a map of the light from all directions, .hdr or .exr, in place of sun and sky, or none for no light")
-        ->group(kGroup);
-    cli::addValue(app, "--environment-turn", options.environment.turn, cli::parseDegrees, "DEGREES",
-                  "turns maps about the vertical, counterclockwise from above (default 0)")
-        ->group(kGroup);
-    cli::addValue(app, "--environment-strength", options.environment.strength, cli::parsePositive, "FACTOR",
-                  "factor for the light of maps (default 1)")
-        ->group(kGroup);
-    cli::addValue(app, "--background-blur", options.environment.background_blur, cli::parseBlur, "DEGREES",
-                  "blurs what the camera sees of maps, above 0 to 90; their light stays (default: sharp)")
-        ->group(kGroup);
+    cli::addTimeOfDayOption(
+        app, [&options](const glm::dvec3& to_sun)
+        { options.view_changes.emplace_back([to_sun](ViewState& view) { view.frame.trace.to_sun = to_sun; }); });
+    cli::addEnvironmentOptions(app, options.environment, "; --map-sun adds the sun");
+    for (const char* const name : {"--camera", "--time-of-day", "--environment", "--environment-turn",
+                                   "--environment-strength", "--background-blur"})
+    {
+        app.get_option(name)->group(kGroup);
+    }
 }
 
 void addWindowOptions(CLI::App& app, DemoOptions& options)
