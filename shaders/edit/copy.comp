@@ -24,11 +24,10 @@ void main()
     if (cell.base != kNoEditNode)
         leaf = params.nodes.data[cell.base];
     uvec3 at = 4u * cellOf(params.box, params.box.level_count - 1u, number) + cellNumbered(bit);
-    uint words = number * kStampWords;
-    uint word = words + 2u + 3u * bit;
+    uint word = stampCell(number, bit);
     bool exists = hasChild(leaf, bit) && isInDab(params.box, at);
     if (exists)
-        atomicOr(params.stamp.data[words + (bit >> 5)], 1u << (bit & 31u));
+        atomicOr(params.stamp.data[stampMask(number, bit)], 1u << (bit & 31u));
     Attribute look = Attribute(0u, kNoNormal);
     uint emission = 0u;
     if (exists && kAttributes)

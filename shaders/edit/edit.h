@@ -48,7 +48,21 @@ const uint kDabEdgeMax = 2u * kBrushRadiusMax + 1u; // of a dab's box
 
 // A stamp has these words for each leaf that its box touches, in the order of cells: the mask of its voxels; then
 // colour (with flags), normal and emission of each of the 64 cells.
-const uint kStampWords = 2u + 3u * 64u;
+const uint kStampMaskWords = 2u;
+const uint kStampCellWords = 3u;
+const uint kStampWords = kStampMaskWords + kStampCellWords * 64u;
+
+// The word of a stamp with the bit of a leaf's cell. leaf: its number among the stamp's leaves.
+GPU_FUNCTION uint stampMask(uint leaf, uint cell)
+{
+    return leaf * kStampWords + (cell >> 5u);
+}
+
+// The first word of what such a cell looks like.
+GPU_FUNCTION uint stampCell(uint leaf, uint cell)
+{
+    return leaf * kStampWords + kStampMaskWords + kStampCellWords * cell;
+}
 
 const uint kFewLeaves = 64u; // cells: so many are averaged by the same workgroup as the few hundred at most above them
 

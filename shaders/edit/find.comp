@@ -75,7 +75,7 @@ void dab(Node base, uvec3 leaf, uint number, inout EditCell cell)
     uvec2 mask = uvec2(base.mask_lo, base.mask_hi);
     uvec2 under = voxelsUnderBrush(leaf);
     if (kStamp)
-        under &= uvec2(params.stamp.data[number * kStampWords], params.stamp.data[number * kStampWords + 1u]);
+        under &= uvec2(params.stamp.data[stampMask(number, 0u)], params.stamp.data[stampMask(number, 32u)]);
     uint action = actionOf(params.brush);
     bool paints = action == kBrushPaint || (kStamp && action == kBrushFill);
     uvec2 made = action == kBrushFill ? under & ~mask : uvec2(0u);

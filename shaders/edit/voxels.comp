@@ -12,7 +12,7 @@ GPU_ENTRY(EditVoxelsParams, EDIT_VOXELS_CONSTANTS);
 
 Attribute stampLook(EditVoxel voxel)
 {
-    uint word = stampWord(voxel);
+    uint word = stampCell(voxel.leaf, voxel.bit);
     uint kept = kEmits ? ~0u : ~(kAttributeEmissive << 24);
     return Attribute(params.stamp.data[word] & kept, params.stamp.data[word + 1u]);
 }

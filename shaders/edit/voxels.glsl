@@ -44,18 +44,11 @@ EditVoxel editVoxel()
     return voxel;
 }
 
-// Where the colour, normal and emission of the voxel's cell stand in the stamp.
-uint stampWord(EditVoxel voxel)
-{
-    return voxel.leaf * kStampWords + 2u + 3u * voxel.bit;
-}
-
 // Whether the voxel is to look like that of the stamp.
 bool isStamped(EditVoxel voxel)
 {
     bool can_be = kStamp && isInDab(params.box, voxel.cell) && actionOf(params.brush) != kBrushCarve;
-    return can_be &&
-           ((params.stamp.data[voxel.leaf * kStampWords + (voxel.bit >> 5)] >> (voxel.bit & 31u)) & 1u) != 0u;
+    return can_be && ((params.stamp.data[stampMask(voxel.leaf, voxel.bit)] >> (voxel.bit & 31u)) & 1u) != 0u;
 }
 
 // Whether the voxel, which was there before, gets the look of the brush.

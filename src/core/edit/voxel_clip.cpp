@@ -11,8 +11,6 @@ namespace zvo
 namespace
 {
 
-constexpr std::uint32_t kCellWords = 3; // colour, normal and emission
-
 // Where a voxel stands in the words of a stamp.
 struct StampPlace
 {
@@ -24,16 +22,16 @@ struct StampPlace
 StampPlace placeIn(const VoxelBox& box, const glm::ivec3& voxel)
 {
     const glm::ivec3 first = box.lo / kLeafEdge;
-    const glm::u64vec3 size(box.hi / kLeafEdge - first + 1);
-    const glm::u64vec3 leaf(voxel / kLeafEdge - first);
-    const std::size_t words = gpu::kStampWords * (leaf.x + size.x * (leaf.y + size.y * leaf.z));
+    const gpu::uvec3 size(box.hi / kLeafEdge - first + 1);
+    const gpu::uvec3 leaf(voxel / kLeafEdge - first);
+    const std::uint32_t leaf_number = leaf.x + size.x * (leaf.y + size.y * leaf.z);
     std::uint32_t number = 0; // Morton code in the leaf
     for (glm::length_t axis = 0; axis < 3; ++axis)
     {
         const auto in_leaf = static_cast<std::uint32_t>(voxel[axis] % kLeafEdge);
         number |= (in_leaf & 1U) << axis | (in_leaf >> 1) << (axis + 3);
     }
-    return {words + number / 32, number % 32, words + 2 + std::size_t{kCellWords} * number};
+    return {gpu::stampMask(leaf_number, number), number % 32, gpu::stampCell(leaf_number, number)};
 }
 
 // Calls visit(cell) for the cells of a box.
