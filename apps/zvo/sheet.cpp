@@ -1,22 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include "sheet.h"
 
+#include "core/base/divide_up.h"
+
 #include <algorithm>
 #include <cassert>
 #include <cstddef>
 
 namespace zvo::cli
 {
-
-namespace
-{
-
-std::uint32_t divideUp(std::uint32_t a, std::uint32_t b)
-{
-    return (a + b - 1) / b;
-}
-
-} // namespace
 
 SheetLayout layoutOf(const RenderOptions& options)
 {
@@ -26,8 +18,9 @@ SheetLayout layoutOf(const RenderOptions& options)
     {
         ++columns;
     }
-    const std::uint32_t rows = divideUp(count, columns);
-    return {count, columns, rows, divideUp(options.width, columns), divideUp(options.height, rows)};
+    const auto rows = static_cast<std::uint32_t>(divideUp(count, columns));
+    return {count, columns, rows, static_cast<std::uint32_t>(divideUp(options.width, columns)),
+            static_cast<std::uint32_t>(divideUp(options.height, rows))};
 }
 
 void placeView(const SheetLayout& layout, std::uint32_t index, const Picture& view, Picture& sheet)

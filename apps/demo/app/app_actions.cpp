@@ -4,6 +4,7 @@
 
 #include "common/names.h"
 #include "common/progress.h"
+#include "common/words.h"
 #include "io/file/atomic_file.h"
 #include "zvo/error.h"
 
@@ -213,7 +214,7 @@ void App::reloadChangedShaders()
     {
         cli::talk(fmt::format("error: shaders: {}", result.message));
     }
-    note(result.count != 0 ? fmt::format("{} {} compiled", result.count, result.count == 1 ? "shader" : "shaders")
+    note(result.count != 0        ? cli::counted(result.count, "shader") + " compiled"
          : result.message.empty() ? "no shader has changed"
                                   : "the old shaders go on");
     m_frame_start = Clock::now();

@@ -3,6 +3,7 @@
 #include "demo/app/app.h"
 
 #include "common/progress.h"
+#include "common/words.h"
 #include "core/edit/voxel_clip.h"
 #include "core/tree/rgb9e5.h"
 #include "demo/world/mirror.h"
@@ -21,11 +22,6 @@ namespace
 {
 
 constexpr int kFloodReach = 80; // voxels from the seed along each axis
-
-std::string countOf(std::size_t voxels)
-{
-    return fmt::format("{} {}", voxels, voxels == 1 ? "voxel" : "voxels");
-}
 
 VoxelBox wholeGrid(const Grid& grid)
 {
@@ -121,7 +117,7 @@ void App::carryOut(const FloodOrder& order)
     m_editor.requestStroke(brushes, {}, *m_world);
     const std::string end =
         is_cut_off ? fmt::format("; there are more, but a flood reaches {} voxels at most", kFloodReach) : "";
-    note(count == 0 ? "there is no voxel of what stands still" : countOf(count) + end);
+    note(count == 0 ? "there is no voxel of what stands still" : cli::counted(count, "voxel") + end);
 }
 
 void App::carryOut(const CopyOrder& order)
@@ -132,7 +128,7 @@ void App::carryOut(const CopyOrder& order)
             fmt::format("too large a box to copy: {} cells of at most {}", order.box.volume(), VoxelClip::kCellsMax));
     }
     m_clip = m_world->scene.copyVoxels(order.box);
-    note(countOf(m_clip.voxelCount()) + (order.cuts ? " cut; Ctrl+V pastes" : " copied; Ctrl+V pastes"));
+    note(cli::counted(m_clip.voxelCount(), "voxel") + (order.cuts ? " cut; Ctrl+V pastes" : " copied; Ctrl+V pastes"));
     if (order.cuts)
     {
         const Brush carve = carved(order.box);
@@ -159,7 +155,7 @@ void App::carryOut(const PasteOrder& order)
     const std::vector<Brush> brushes = placed(m_clip, lo, grid);
     m_editor.requestStroke(brushes, m_editor.state.mirror, *m_world);
     m_editor.state.selection = VoxelBox{lo, lo + size - 1};
-    note(brushes.empty() ? "the grid ends there" : countOf(m_clip.voxelCount()) + " pasted");
+    note(brushes.empty() ? "the grid ends there" : cli::counted(m_clip.voxelCount(), "voxel") + " pasted");
 }
 
 void App::carryOut(const MoveOrder& order)
@@ -186,7 +182,7 @@ void App::carryOut(const MoveOrder& order)
     }
     m_editor.requestStroke(brushes, m_editor.state.mirror, *m_world);
     m_editor.state.selection = target;
-    note(countOf(clip.voxelCount()) + " moved");
+    note(cli::counted(clip.voxelCount(), "voxel") + " moved");
 }
 
 void App::carryOut(const DeleteOrder& order)

@@ -4,10 +4,10 @@
 
 #include "common/environment_input.h"
 #include "common/progress.h"
+#include "demo/world/hit_face.h"
 
 #include <fmt/format.h>
 
-#include <cmath>
 #include <exception>
 #include <optional>
 
@@ -58,10 +58,7 @@ void App::focusOn(const gpu::PixelReport& report)
     {
         return;
     }
-    const Grid& grid = m_world->scene.tree().grid;
-    const double size =
-        double{grid.voxel_size} * std::exp2(2.0 * (grid.nodeLevels() - static_cast<double>(report.level)));
-    const glm::dvec3 middle = glm::dvec3(grid.origin) + (glm::dvec3(report.cell) + 0.5) * size;
+    const glm::dvec3 middle = nodeCenter(m_world->scene.tree().grid, glm::ivec3(report.cell), report.level);
     const ViewCamera& camera = m_camera.camera();
     const double distance = glm::dot(middle - camera.position, camera.forward);
     if (distance > 0)

@@ -5,13 +5,23 @@
 #include "core/scene/camera.h"
 #include "shared/trace.h"
 
+#include <cmath>
+#include <cstdint>
+
 namespace zvo::demo
 {
+
+/// The middle of a node in world space. cell: of the nodes of its level.
+inline glm::dvec3 nodeCenter(const Grid& grid, const glm::ivec3& cell, std::uint32_t level)
+{
+    const double size = std::ldexp(double{grid.voxel_size}, 2 * static_cast<int>(grid.nodeLevels() - level));
+    return glm::dvec3(grid.origin) + (glm::dvec3(cell) + 0.5) * size;
+}
 
 /// The middle of a voxel in world space.
 inline glm::dvec3 voxelCenter(const Grid& grid, const glm::ivec3& voxel)
 {
-    return glm::dvec3(grid.origin) + (glm::dvec3(voxel) + 0.5) * double{grid.voxel_size};
+    return nodeCenter(grid, voxel, grid.nodeLevels());
 }
 
 /// The step from a voxel to its neighbour across the face that the camera sees. face: axis, as in Hit; 0 for a camera
