@@ -41,8 +41,7 @@ ViewCamera readCamera(const JsonCursor& object)
     for (const auto& [key, axis] :
          {std::pair("forward", &camera.forward), std::pair("right", &camera.right), std::pair("up", &camera.up)})
     {
-        static_cast<void>(object.at(key).direction()); // checks that not all numbers are 0
-        *axis = object.at(key).vector();
+        *axis = object.at(key).nonZeroVector();
     }
     if (const std::optional<JsonCursor> half_height = object.find("half_height"))
     {
@@ -129,8 +128,7 @@ SceneMemory readMemory(const JsonCursor& object)
         const std::uint32_t number = bookmark.at("number").whole(1, memory.bookmarks.size());
         memory.bookmarks[number - 1] = readCamera(bookmark.at("camera"));
     }
-    static_cast<void>(object.at("sun").direction());
-    memory.to_sun = object.at("sun").vector();
+    memory.to_sun = object.at("sun").nonZeroVector();
     memory.exposure = static_cast<float>(object.at("exposure").positive(ViewState::kPositiveMax));
     return memory;
 }

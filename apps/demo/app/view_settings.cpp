@@ -101,12 +101,10 @@ Form<float> ofScene()
 // Of any length, but not 0.
 Form<glm::dvec3> direction()
 {
-    const auto read = [](const JsonCursor& value)
-    {
-        static_cast<void>(value.direction()); // checks that not all numbers are 0
-        return value.vector();
-    };
-    return {cli::parseDirection, read, [](const glm::dvec3& value) { return Json{value.x, value.y, value.z}; }};
+    return {cli::parseDirection, [](const JsonCursor& value) { return value.nonZeroVector(); },
+            [](const glm::dvec3& value) {
+                return Json{value.x, value.y, value.z};
+            }};
 }
 
 // In which pictures a setting has an effect.

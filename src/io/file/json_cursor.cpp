@@ -314,14 +314,20 @@ glm::dvec3 JsonCursor::vector() const
     return {(*m_value)[0].get<double>(), (*m_value)[1].get<double>(), (*m_value)[2].get<double>()};
 }
 
-glm::dvec3 JsonCursor::direction() const
+glm::dvec3 JsonCursor::nonZeroVector() const
 {
     const glm::dvec3 v = isVector() ? vector() : glm::dvec3(0.0);
-    const double longest = std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
-    if (longest == 0.0)
+    if (v == glm::dvec3(0.0))
     {
         throw mismatch("three numbers [x, y, z], not all 0");
     }
+    return v;
+}
+
+glm::dvec3 JsonCursor::direction() const
+{
+    const glm::dvec3 v = nonZeroVector();
+    const double longest = std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
     return glm::normalize(v / longest); // divided first, as squares of very small numbers would be 0
 }
 

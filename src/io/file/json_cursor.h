@@ -75,7 +75,9 @@ public:
     [[nodiscard]] std::uint32_t whole(std::uint32_t low, std::uint32_t high) const;
     /// Three numbers.
     [[nodiscard]] glm::dvec3 vector() const;
-    /// Three numbers, not all 0, scaled to length 1.
+    /// Three numbers, not all 0.
+    [[nodiscard]] glm::dvec3 nonZeroVector() const;
+    /// The same, scaled to length 1.
     [[nodiscard]] glm::dvec3 direction() const;
 
 private:
