@@ -33,10 +33,10 @@ vec3 agxCurve(vec3 x)
 }
 
 // From radiance, which may be infinite, to codes in [0, 1]: AgX (T. Sobotka, github.com/sobotka/AgX, 2022) as a
-// polynomial (B. Wrensch, Minimal AgX Implementation, 2023). Bright colours fade to white, so no hue turns into another.
-// What differs: contrast and saturation stand between those of AgX's base and of its look "punchy", and radiance is
-// scaled so that middle grey, 0.2, has the code 0.44, as by the curve of K. Narkowicz (ACES Filmic Tone Mapping Curve,
-// 2015).
+// polynomial (B. Wrensch, Minimal AgX Implementation, 2023). Bright colours fade to white, so no hue turns into
+// another. What differs: contrast and saturation stand between those of AgX's base and of its look "punchy", and
+// radiance is scaled so that middle grey, 0.2, has the code 0.44, as by the curve of K. Narkowicz (ACES Filmic Tone
+// Mapping Curve, 2015).
 vec3 toneMap(vec3 radiance)
 {
     const mat3 inset = mat3(0.842479, 0.042328, 0.042376, 0.078434, 0.878469, 0.078434, 0.079224, 0.079166, 0.879143);

@@ -46,9 +46,9 @@ vec4 countedLight(uvec3 cell, uint normal)
     return counts * vec4(found ? cachedRadiance(face.light) : vec3(0.0), 1.0);
 }
 
-// The light at a place on a face, times what it counts, by those nine faces of its plane that are around the cell. Shares are those
-// of a quadratic B-spline, which is smooth where light between four faces has creases, and is made of more faces, so
-// that less noise is left of each.
+// The light at a place on a face, times what it counts, by those nine faces of its plane that are around the cell.
+// Shares are those of a quadratic B-spline, which is smooth where light between four faces has creases, and is made of
+// more faces, so that less noise is left of each.
 vec4 lightAround(uvec3 cell, uint normal, vec3 place)
 {
     vec3 offset = clamp(place, 0.0, 1.0) - 0.5;

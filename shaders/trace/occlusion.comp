@@ -1,8 +1,8 @@
 #version 460
 // SPDX-License-Identifier: MIT
 // Estimates how much of the sky's light arrives at hits: a few short rays, spread over the hemisphere by the cosine in
-// the same pattern for every pixel (a Fibonacci lattice), which each sample turns. One workgroup for each live tile. The rays of a pixel
-// share the iterations that an invocation has; those for which none are left count as open.
+// the same pattern for every pixel (a Fibonacci lattice), which each sample turns. One workgroup for each live tile.
+// The rays of a pixel share the iterations that an invocation has; those for which none are left count as open.
 #extension GL_GOOGLE_include_directive : require
 #include "trace/light.h"
 
