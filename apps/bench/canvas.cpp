@@ -2,6 +2,7 @@
 #include "bench/canvas.h"
 
 #include "bench/bench_runs.h"
+#include "core/base/color_word.h"
 #include "core/base/morton.h"
 #include "core/tree/tree_data.h"
 #include "runtime/static_part.h"
@@ -70,7 +71,7 @@ double Canvas::stroke(BrushAction action, std::uint32_t radius)
 {
     const std::uint64_t code = m_codes[m_random() % m_codes.size()];
     const Brush brush = {BrushShape::Sphere, action, gpu::ivec3(cellOfCode(code)), radius,
-                         static_cast<std::uint32_t>(m_random() & 0xFFFFFFU)};
+                         static_cast<std::uint32_t>(m_random() & kColorMask)};
     bool is_done = false;
     std::vector<vk::PassTime> passes;
     for (std::uint32_t attempt = 0; !is_done; ++attempt)

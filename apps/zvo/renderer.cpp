@@ -6,6 +6,7 @@
 #include "common/output.h"
 #include "common/picture_file.h"
 #include "common/report.h"
+#include "core/base/color_word.h"
 #include "core/path/aov.h"
 #include "io/image/hdr_image_io.h"
 #include "io/image/image_io.h"
@@ -118,9 +119,8 @@ Picture Renderer::render(std::span<const ViewCamera> views, Progress& progress, 
     {
         return renderView(views.front(), progress, times);
     }
-    constexpr std::uint32_t kBlack = 0xffU << 24U;
     Picture sheet = {m_options.width, m_options.height, {}, {}};
-    sheet.texels.assign(std::size_t{sheet.width} * sheet.height, kBlack);
+    sheet.texels.assign(std::size_t{sheet.width} * sheet.height, kOpaque);
     for (std::uint32_t i = 0; i < views.size(); ++i)
     {
         PictureTimes view_times;

@@ -5,6 +5,7 @@
 #include "common/environment_input.h"
 #include "common/progress.h"
 #include "common/view.h"
+#include "core/base/color_word.h"
 #include "zvo/error.h"
 
 #include <exception>
@@ -18,8 +19,8 @@ namespace zvo::demo
 namespace
 {
 
-constexpr double kLoadingPieceMs = 30;           // work on a world between two frames of another one
-constexpr gpu::uint kLoadingColor = 0xFF201C1AU; // of the window, red in the lowest bits
+constexpr double kLoadingPieceMs = 30; // work on a world between two frames of another one
+constexpr gpu::uint kLoadingColor = kOpaque | 32U << 16U | 28U << 8U | 26U; // of the window
 
 } // namespace
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "core/edit/edit.h"
 
+#include "core/base/color_word.h"
 #include "core/base/divide_up.h"
 #include "core/base/lanes.h"
 #include "core/tree/device_tree.h"
@@ -26,7 +27,7 @@ gpu::Brush gpuBrush(const Brush& brush, const DeviceTree& tree)
     const auto action = static_cast<gpu::uint>(brush.action);
     const bool emits = tree.emission_words.count() != 0 && brush.emission != gpu::vec3(0.0F);
     return {box.lo, box.hi, shape | action << gpu::kBrushActionShift,
-            (brush.color & 0xFFFFFFU) | (emits ? gpu::kAttributeEmissive << 24U : 0U),
+            (brush.color & kColorMask) | (emits ? gpu::kAttributeEmissive << 24U : 0U),
             emits ? encodeRgb9e5(brush.emission / tree.emission_scale) : 0U};
 }
 

@@ -58,7 +58,7 @@ std::uint32_t mirroredNormal(std::uint32_t code, glm::length_t axis)
         return code;
     }
     constexpr int kOne = 32767;
-    glm::ivec2 p(static_cast<std::int16_t>(code & 0xFFFFU), static_cast<std::int16_t>(code >> 16));
+    glm::ivec2 p(static_cast<std::int16_t>(code), static_cast<std::int16_t>(code >> 16));
     if (axis < 2)
     {
         p[axis] = -p[axis];
@@ -69,7 +69,7 @@ std::uint32_t mirroredNormal(std::uint32_t code, glm::length_t axis)
         const glm::ivec2 sign(p.x < 0 ? -1 : 1, p.y < 0 ? -1 : 1);
         p = sign * glm::ivec2(kOne - size.y, kOne - size.x);
     }
-    return (static_cast<std::uint32_t>(p.x) & 0xFFFFU) | static_cast<std::uint32_t>(p.y) << 16;
+    return static_cast<std::uint16_t>(p.x) | static_cast<std::uint32_t>(p.y) << 16;
 }
 
 std::uint32_t colorDistance(std::uint32_t a, std::uint32_t b)
@@ -77,7 +77,7 @@ std::uint32_t colorDistance(std::uint32_t a, std::uint32_t b)
     std::uint32_t distance = 0;
     for (std::uint32_t shift = 0; shift < 24; shift += 8)
     {
-        const int away = static_cast<int>(a >> shift & 0xFFU) - static_cast<int>(b >> shift & 0xFFU);
+        const int away = int{static_cast<std::uint8_t>(a >> shift)} - int{static_cast<std::uint8_t>(b >> shift)};
         distance = std::max(distance, static_cast<std::uint32_t>(std::abs(away)));
     }
     return distance;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "core/tree/tree_build.h"
 
+#include "core/base/color_word.h"
 #include "core/base/morton.h"
 #include "core/tree/rgb9e5.h"
 #include "zvo/error.h"
@@ -102,7 +103,6 @@ TreeData octreeOfVoxels(const Grid& grid, std::span<const std::uint64_t> codes)
 void addColors(TreeData& octree, std::span<const std::uint32_t> colors)
 {
     assert(colors.size() == octree.voxel_count);
-    constexpr std::uint32_t kColorMask = 0xffffffU;
     octree.voxel_attributes.reserve(colors.size());
     for (const std::uint32_t color : colors)
     {

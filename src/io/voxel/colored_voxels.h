@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "core/base/color_word.h"
 #include "core/tree/tree_data.h"
 
 #include <cstddef>
@@ -13,7 +14,6 @@ namespace zvo
 /// << 16; kPlainColor in a tree without attributes.
 template <typename Use> void forEachColoredVoxel(const TreeData& tree, const Use& use)
 {
-    constexpr std::uint32_t kColorMask = 0xffffffU;
     std::size_t voxel = 0;
     forEachVoxel(tree,
                  [&](std::uint64_t code)

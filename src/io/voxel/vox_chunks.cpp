@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "io/voxel/vox_chunks.h"
 
+#include "core/base/color_word.h"
 #include "core/base/input_error.h"
 #include "io/file/text_cursor.h"
 
@@ -257,7 +258,7 @@ private:
     {
         for (std::uint32_t& color : m_scene.palette)
         {
-            color = static_cast<std::uint32_t>(content.number()) & 0xffffffU; // the alpha has no meaning
+            color = static_cast<std::uint32_t>(content.number()) & kColorMask; // the alpha has no meaning
         }
     }
 

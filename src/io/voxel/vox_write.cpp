@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "core/base/color_word.h"
 #include "core/base/morton.h"
 #include "io/voxel/colored_voxels.h"
 #include "io/voxel/quantize.h"
@@ -115,7 +116,6 @@ Writer sceneGraph(const std::vector<Model>& models)
 
 Writer paletteChunk(const Palette& palette)
 {
-    constexpr std::uint32_t kOpaque = 0xff000000U;
     Writer content;
     for (std::size_t i = 0; i <= kPaletteSize; ++i) // 256 are written; the last one has no index
     {
