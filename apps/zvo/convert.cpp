@@ -9,7 +9,6 @@
 #include "common/words.h"
 #include "core/base/input_error.h"
 #include "core/base/kernels.h"
-#include "core/file/zvo_file.h"
 #include "runtime/trees.h"
 #include "zvo/error.h"
 

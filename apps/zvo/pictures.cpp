@@ -2,7 +2,6 @@
 #include "pictures.h"
 
 #include "common/picture_file.h"
-#include "io/image/image_io.h"
 #include "zvo/error.h"
 
 #include <fmt/format.h>
@@ -40,8 +39,8 @@ Pictures::Pictures(const RenderOptions& options) : m_options(options)
     const std::string& path = options.output.path;
     m_marker = path.find('#');
     m_digits = m_marker == std::string::npos ? 0 : path.find_first_not_of('#', m_marker) - m_marker;
-    m_moves = options.frames && m_digits == 0 && extensionOf(path) == ".webp";
-    if (!options.frames || m_moves)
+    m_is_animation = options.frames && m_digits == 0 && extensionOf(path) == ".webp";
+    if (!options.frames || m_is_animation)
     {
         m_first.emplace(path, options.output.overwrite);
         return;
@@ -82,7 +81,7 @@ void Pictures::checkName() const
 void Pictures::checkInputs(std::span<const std::filesystem::path> inputs) const
 {
     checkPaths(m_options.output, inputs);
-    for (std::uint32_t i = 0; m_options.frames && !m_moves && i < count(); ++i)
+    for (std::uint32_t i = 0; m_options.frames && !m_is_animation && i < count(); ++i)
     {
         const std::string path = pathOf(i);
         std::error_code ignored;
@@ -109,7 +108,7 @@ std::uint32_t Pictures::number(std::uint32_t index) const
 
 void Pictures::write(std::uint32_t index, const Picture& picture)
 {
-    if (m_moves)
+    if (m_is_animation)
     {
         if (!m_animation)
         {

@@ -51,7 +51,7 @@ private:
     std::size_t m_marker = 0; // position of the frame's number in the name
     std::size_t m_digits = 0;
     std::optional<Output> m_first; // the first file, which is open already
-    bool m_moves = false;          // all frames are in one file
+    bool m_is_animation = false;   // all frames are in one file
     std::optional<WebpAnimation> m_animation;
     std::uint32_t m_animation_count = 0; // frames in it
     double m_frames_per_second = AnimatedScene().frames_per_second;

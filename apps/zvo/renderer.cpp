@@ -9,7 +9,6 @@
 #include "core/base/color_word.h"
 #include "core/path/aov.h"
 #include "io/image/hdr_image_io.h"
-#include "io/image/image_io.h"
 #include "zvo/error.h"
 
 #include <fmt/format.h>

@@ -19,11 +19,6 @@ namespace
 
 constexpr const char* kTitle = "Files";
 
-std::string extensionOf(const std::string& name)
-{
-    return cli::extensionOf(name);
-}
-
 } // namespace
 
 std::vector<FileEntry> listFolder(const std::filesystem::path& folder, const std::vector<std::string>& extensions)
@@ -36,7 +31,7 @@ std::vector<FileEntry> listFolder(const std::filesystem::path& folder, const std
         std::error_code ignored;
         const FileEntry found = {entry->path().filename().string(), entry->is_directory(ignored)};
         const bool is_listed = found.is_folder || extensions.empty() ||
-                               std::ranges::find(extensions, extensionOf(found.name)) != extensions.end();
+                               std::ranges::find(extensions, cli::extensionOf(found.name)) != extensions.end();
         if (is_listed && !found.name.starts_with('.'))
         {
             entries.push_back(found);
@@ -129,7 +124,7 @@ void FileDialog::showExtensions()
     {
         ImGui::TableNextColumn();
         ImGui::PushID(extension.c_str());
-        if (ImGui::RadioButton(extension.c_str(), extensionOf(m_name) == extension))
+        if (ImGui::RadioButton(extension.c_str(), cli::extensionOf(m_name) == extension))
         {
             m_name = std::filesystem::path(m_name).replace_extension(extension).string();
         }
@@ -169,7 +164,7 @@ std::optional<std::filesystem::path> FileDialog::show()
     std::error_code ignored;
     const bool is_folder = !m_name.empty() && std::filesystem::is_directory(chosen(), ignored);
     const bool is_there = !m_name.empty() && !is_folder && std::filesystem::exists(chosen(), ignored);
-    const bool can_write = std::ranges::find(m_extensions, extensionOf(m_name)) != m_extensions.end();
+    const bool can_write = std::ranges::find(m_extensions, cli::extensionOf(m_name)) != m_extensions.end();
     const bool can_go = m_writes ? can_write && !is_folder : is_there;
     ImGui::BeginDisabled(!can_go);
     const bool is_pressed = ImGui::Button(!m_writes ? "open" : is_there ? "overwrite" : "save");
