@@ -245,7 +245,7 @@ struct PathFinishParams // push constants of path/finish: a thread a pixel
 #define PATH_FINISH_CONSTANTS(CONSTANT) CONSTANT(0, bool, features, kFeatures, false)
 GPU_KERNEL(path, finish, Finish, PathFinishParams, PATH_FINISH_CONSTANTS)
 
-struct PathTraceParams // push constants of path/trace: a workgroup takes kPathGroup * paths_of_thread pixels
+struct PathTraceParams // push constants of path/trace: workgroups take tiles of kPathGroup pixels in turns
 {
     GPU_CONST_PTR(TreeTable) tree;
     GPU_CONST_PTR(Node) nodes;
@@ -264,7 +264,7 @@ struct PathTraceParams // push constants of path/trace: a workgroup takes kPathG
     uint end_pixel;
     uint sample_index;
     uint bounces;
-    uint paths_of_thread; // on average of a workgroup
+    uint workgroups;
 };
 #define PATH_TRACE_CONSTANTS(CONSTANT)                                                                                 \
     TRAVERSE_CONSTANTS(CONSTANT)                                                                                       \

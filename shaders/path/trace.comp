@@ -2,10 +2,11 @@
 // SPDX-License-Identifier: MIT
 // Follows each path of a batch from the camera to its end: the other form of path tracing (path.h).
 //
-// A thread takes one path after the other. The pixels of a workgroup stand in a row; where a path ends, its thread
-// takes the next pixel that no thread has (regeneration: J. Novak, V. Havran, C. Dachsbacher, Path Regeneration for
-// Interactive Path Tracing, 2010). So threads that run together stay busy as long as the workgroup has pixels, no
-// workgroup knows of another, and none waits.
+// A thread takes one path after the other: where a path ends, its thread takes the next pixel of the workgroup that no
+// thread has (regeneration: J. Novak, V. Havran, C. Dachsbacher, Path Regeneration for Interactive Path Tracing, 2010).
+// So threads that run together stay busy as long as the workgroup has pixels, no workgroup knows of another, and none
+// waits. Workgroups take tiles in turns, so that each has a part of the sky, where paths are short, and of whatever
+// makes them long.
 //
 // In each turn of the loop a thread traces one ray, whether it is the path's next one or one to a light: all threads
 // do that together, and then what follows from their rays. A ray that uses up its iterations resumes in the next turn.
@@ -33,6 +34,14 @@ layout(local_size_x = kPathGroup) in;
 const bool kRanked = kEntriesPerWord != 0u && kNodeLevels > 1u && kFormat != kFormatNone; // hits have indices by ranks
 
 shared uint s_taken; // pixels of the workgroup
+
+// The pixel that the workgroup takes after so many others; params.end_pixel or more: there is none.
+uint pixelTaken(uint taken)
+{
+    uint tile = taken / kPathGroup * params.workgroups + workgroupIndex();
+    uint number = params.first_pixel + tile * kPathGroup + taken % kPathGroup;
+    return workgroupIndex() < params.workgroups ? number : params.end_pixel;
+}
 
 // A path on its way.
 struct Path
@@ -142,9 +151,7 @@ void main()
     if (gl_LocalInvocationIndex == 0u)
         s_taken = kPathGroup;
     barrier();
-    uint first = params.first_pixel + workgroupIndex() * kPathGroup * params.paths_of_thread;
-    uint end = min(first + kPathGroup * params.paths_of_thread, params.end_pixel);
-    uint number = first + gl_LocalInvocationIndex;
+    uint number = pixelTaken(gl_LocalInvocationIndex);
     g_halves = uint64_t_ConstPtr(uint64_t(params.nodes));
 
     Path path;
@@ -154,7 +161,7 @@ void main()
     uint round = 0u;
     uvec2 counts = uvec2(0u); // of rays of paths and of those to lights
     bool begins = true;
-    bool go = number < end;
+    bool go = number < params.end_pixel;
     for (; go;)
     {
         if (begins)
@@ -194,10 +201,10 @@ void main()
                 addSample(params.sums, number, path.radiance);
                 if (kFeatures)
                     addScattered(params.features, number, path.radiance, path.direct);
-                number = first + atomicAdd(s_taken, 1u);
+                number = pixelTaken(atomicAdd(s_taken, 1u));
             }
         }
-        go = number < end;
+        go = number < params.end_pixel;
     }
     counts = subgroupAdd(counts);
     if (subgroupElect())
@@ -207,6 +214,6 @@ void main()
         atomicAdd(lengths.data[3u * kListLengths + kListShadows], counts.y);
     }
     // A device that ends loops early (lavapipe, after 65,535 iterations) has lost a path.
-    if (number < end)
+    if (number < params.end_pixel)
         atomicAdd(params.status.data[0].capped_rays, 1u);
 }

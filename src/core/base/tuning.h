@@ -25,6 +25,7 @@ enum class Tunable : std::uint8_t
     BrickThreads,
     BrickVoxels,
     PathForm,
+    PathThreads,
     SubgroupSize,
     Loads
 };

@@ -26,20 +26,18 @@ constexpr std::uint64_t kDispatchPixelsMin = std::uint64_t{1} << 17;
 /// Lists of paths: of a bounce and of the next one.
 constexpr std::size_t kPathLists = 2;
 
-/// Threads of a dispatch of path/trace on a GPU, if it has so many pixels: enough for the largest ones.
-constexpr std::uint64_t kDispatchThreads = std::uint64_t{1} << 16;
-
 // Elements of the lists of a batch: of all bounces, and of the one that no path reaches.
 std::uint64_t batchElements(const PathOptions& options)
 {
     return std::uint64_t{std::min(options.bounces, kBouncesMax) + 2} * gpu::kListElements;
 }
 
-// The paths that a thread of path/trace follows, on average. On CPUs one: threads run one after the other there, the
-// first of a workgroup would take all; and loops end early there (shared/trace.h).
-std::uint32_t pathsOfThread(std::string_view device_type, std::uint64_t pixel_count)
+// The paths that a thread of path/trace follows, on average. On software devices one: threads run one after the other
+// there, the first of a workgroup would take all; and loops end early there (shared/trace.h).
+std::uint64_t pathsOfThread(const vk::Device& device, std::uint64_t pixel_count)
 {
-    return device_type == "cpu" ? 1 : static_cast<std::uint32_t>(divideUp(pixel_count, kDispatchThreads));
+    const std::uint32_t threads = tunedValue(device, Tunable::PathThreads);
+    return threads == 0 ? 1 : divideUp(pixel_count, threads);
 }
 
 gpu::PathView viewOf(const Grid& grid, const TraceCamera& camera, const PathOptions& options, std::uint32_t width,
@@ -296,10 +294,11 @@ void PathTracer::traceInOneKernel(vk::FrameGraph& graph, const Batch& batch)
     params.end_pixel = batch.first_pixel + batch.pixel_count;
     params.sample_index = m_sample_count;
     params.bounces = std::min(options.bounces, kBouncesMax);
-    params.paths_of_thread = options.paths_of_thread != 0 ? options.paths_of_thread
-                                                          : pathsOfThread(m_device.report().type, batch.pixel_count);
-    pass.dispatch(
-        divideUp(batch.pixel_count, std::uint64_t{gpu::kPathGroup} * params.paths_of_thread) * gpu::kPathGroup, params);
+    const std::uint64_t paths_of_thread =
+        options.paths_of_thread != 0 ? options.paths_of_thread : pathsOfThread(m_device, batch.pixel_count);
+    const std::uint64_t groups = divideUp(batch.pixel_count, gpu::kPathGroup * paths_of_thread);
+    params.workgroups = static_cast<std::uint32_t>(groups);
+    pass.dispatch(groups * gpu::kPathGroup, params);
 }
 
 void PathTracer::traceInStages(vk::FrameGraph& graph, const Batch& batch)
