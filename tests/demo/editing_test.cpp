@@ -228,7 +228,7 @@ TEST_F(DemoEditing, BoxesMirrorsFloodsAndTheSelectionAreEditsThatAreUndone)
     script.press(frame + 16, Key::Z, kControl).press(frame + 18, Key::F12); // 9
     script.press(frame + 20, Key::Z, kControl).press(frame + 22, Key::Z, kControl).press(frame + 24, Key::F12);
     frame = drag(script, frame + 26, {{80, 40}, {110, 60}});
-    frame = drag(script, frame, {{180, 75}, {60, 75}}, kShift); // out of the grid
+    frame = drag(script, frame + 3, {{180, 75}, {60, 75}}, kShift); // out of the grid
     script.press(frame + 2, Key::F12);
     play(script, frame + 6, kCube + " --margin 8" + kFront);
 
