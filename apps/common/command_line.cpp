@@ -81,8 +81,8 @@ std::vector<std::string> withoutHelpWord(const CLI::App& app, std::vector<std::s
     const std::vector<std::string> names = namesLike(app, words[1]);
     if (words.size() > 2 || std::ranges::find(names, words[1]) == names.end())
     {
-        throw usageError(app,
-                         fmt::format("help takes one command, {}{}", commandNames(app), suggestion(words[1], names)));
+        throw usageError(app, fmt::format("help takes one command, {}{}", commandNames(app),
+                                          words.size() > 2 ? "" : suggestion(words[1], names)));
     }
     return {words[1], "--help"};
 }

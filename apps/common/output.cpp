@@ -27,8 +27,13 @@ bool isFile(const std::string& output)
 bool areSame(const std::filesystem::path& a, const std::filesystem::path& b)
 {
     std::error_code ignored;
-    const auto canonical = [&ignored](const std::filesystem::path& path)
-    { return std::filesystem::weakly_canonical(std::filesystem::absolute(path, ignored), ignored); };
+    const auto canonical = [](const std::filesystem::path& path)
+    {
+        std::error_code failure; // as in a folder that nobody may look into
+        const std::filesystem::path whole = std::filesystem::absolute(path, failure);
+        std::filesystem::path found = std::filesystem::weakly_canonical(whole, failure);
+        return failure ? whole.lexically_normal() : found;
+    };
     return canonical(a) == canonical(b) || std::filesystem::equivalent(a, b, ignored);
 }
 

@@ -84,10 +84,13 @@ Error noSuchCamera(const std::string& wanted, const Scene& scene)
     for (const Camera& camera : scene.cameras)
     {
         names.push_back(camera.name);
-        own.push_back(fmt::format("\"{}\"", camera.name));
+        if (!camera.name.empty())
+        {
+            own.push_back(fmt::format("\"{}\"", camera.name));
+        }
     }
-    const std::string has = own.empty() ? "has no cameras" : fmt::format("has {}", fmt::join(own, ", "));
-    return {ErrorCode::Usage, fmt::format("--camera {}: there is no such camera{}; the scene {}; {} and six finite "
+    const std::string has = own.empty() ? "names no cameras" : fmt::format("has {}", fmt::join(own, ", "));
+    return {ErrorCode::Usage, fmt::format("{}: there is no such camera{}; the scene {}; {} and six finite "
                                           "numbers ex,ey,ez,tx,ty,tz always work",
                                           wanted, suggestion(wanted, names), has, standardCameras())};
 }

@@ -56,6 +56,10 @@ std::string suggestion(std::string_view word, std::span<const std::string> names
     std::size_t least = most + 1;
     for (const std::string& name : names)
     {
+        if (word.size() > kLettersOfASlip && name.starts_with(word)) // left off in the middle
+        {
+            return fmt::format(" (did you mean {}?)", name);
+        }
         const std::size_t distance = word.size() > kWordMax ? least : editDistance(word, name);
         if (distance < least)
         {

@@ -23,6 +23,8 @@ namespace zvo::cli
 namespace
 {
 
+constexpr std::uint32_t kPage = kOpaque | 48U * 0x10101U; // what a sheet shows where it has no view
+
 // Time of the passes up to the last primary rays. Later passes compute light and colour.
 double primaryMs(const std::vector<vk::PassTime>& passes)
 {
@@ -119,7 +121,7 @@ Picture Renderer::render(std::span<const ViewCamera> views, Progress& progress, 
         return renderView(views.front(), progress, times);
     }
     Picture sheet = {m_options.width, m_options.height, {}, {}};
-    sheet.texels.assign(std::size_t{sheet.width} * sheet.height, kOpaque);
+    sheet.texels.assign(std::size_t{sheet.width} * sheet.height, kPage);
     for (std::uint32_t i = 0; i < views.size(); ++i)
     {
         PictureTimes view_times;

@@ -193,7 +193,7 @@ void addOptions(CLI::App& render, RenderOptions& options)
                     "voxelize everything anew for each picture of a scene in which something moves, instead of "
                     "merging what moves with what stands still");
     addOutputOptions(render, options.output,
-                     "the picture, a .png, .jpg or .webp file, or of paths an .exr or .hdr file; - is standard output, "
+                     "the picture, a .png, .jpg or .webp file, or of light an .exr or .hdr file; - is standard output, "
                      "of a .png");
     addValue(render, "--quality", options.quality, integerIn(1, 100), "N",
              "of a .jpg or .webp, 1 to 100 (default 90); a .webp of 100 loses nothing")

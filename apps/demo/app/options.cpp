@@ -174,6 +174,7 @@ std::optional<DemoOptions> parseCommandLine(int argc, const char* const* argv)
     cli::addStructureOption(app, options.structure, "what stands still is an octree or a DAG (default svo)");
     addViewOptions(app, options);
     addWindowOptions(app, options);
+    app.get_option("--time-of-day")->excludes("--sun");
     addScriptOptions(app, options);
     cli::addDeviceOptions(app, options.device);
     if (!cli::parse(app, argc, argv))

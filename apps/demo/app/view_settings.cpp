@@ -207,7 +207,8 @@ std::vector<ViewSetting> makeSettings()
         setting(
             "internal_scale", [](auto& view) -> auto& { return view.internal_scale; }, scale(),
             {kWindowGroup, "FACTOR",
-             "trace pictures this much smaller than the window (default 1; on CPU devices whatever is fast)"},
+             "trace pictures with edges this part of the window's, above 0 to 1 (default 1; while things move, on CPU "
+             "devices, whatever is fast)"},
             showResolution),
         setting(
             "present", [](auto& view) -> auto& { return view.present_mode; }, named(cli::kPresentModes),
