@@ -63,6 +63,20 @@ struct RaysParams // push constants of trace/rays
     CONSTANT(6, bool, counted, kCounted, false) /* the device knows how many rays there are */
 GPU_KERNEL(trace, rays, Rays, RaysParams, TRACE_RAYS_CONSTANTS)
 
+const uint kSectorWords = 4u;   // of 64 bits, in the 32 bytes that GPUs load at least
+const uint kRayLoadsMax = 512u; // of a ray that are noted
+
+struct RayLoadsParams // push constants of trace/ray_loads, which takes valid rays
+{
+    GPU_CONST_PTR(Node) nodes;
+    GPU_CONST_PTR(Ray) rays;  // [ray_count]
+    GPU_PTR(uint) iterations; // [ray_count]
+    GPU_PTR(uint) sectors;    // [kRayLoadsMax][ray_count] by load: of the tree's 32-byte sectors, the one that it is of
+    uint ray_count;
+};
+#define TRACE_RAY_LOADS_CONSTANTS(CONSTANT) TRAVERSE_CONSTANTS(CONSTANT)
+GPU_KERNEL(trace, ray_loads, RayLoads, RayLoadsParams, TRACE_RAY_LOADS_CONSTANTS)
+
 struct RanksParams // push constants of trace/ranks
 {
     RankSource source;

@@ -7,6 +7,7 @@
 #include "core/present/present.h"
 #include "core/trace/trace.h"
 #include "core/trace/trace_depth.h"
+#include "core/trace/trace_loads.h"
 #include "runtime/trees.h"
 #include "support/engine_device.h"
 
@@ -60,6 +61,8 @@ void tracePictures(const DeviceTree& tree)
             graph.fill(status, 0);
             traceRays(graph, tree, rays, hits, rounds, status, {});
         });
+    RayLoads loads(device().device(), rays.count());
+    run([&](vk::FrameGraph& graph) { traceLoads(graph, tree, rays, loads); });
     FrameRenderer samples(device().device());
     samples.resize(buffers.width, buffers.height);
     for (std::uint32_t sample = 0; sample < 2; ++sample)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // A DAG looks like the octree that it was made from.
 #include "core/trace/trace.h"
+#include "core/trace/trace_loads.h"
 #include "io/gltf/gltf_loader.h"
 #include "oracle/morton.h"
 #include "runtime/trees.h"
@@ -54,6 +55,33 @@ struct Pair
 
     [[nodiscard]] ViewCamera view() const { return test::manyCameras(octree.grid).front(); }
 };
+
+// The sectors that a ray loads.
+std::vector<gpu::uint> loadsOf(const DeviceTree& tree, const oracle::Ray& ray)
+{
+    const vk::BufferOf<gpu::Ray> rays = device().makeBuffer<gpu::Ray>("rays", std::vector{test::deviceRay(ray)});
+    RayLoads loads(device().device(), 1);
+    device().run([&](vk::FrameGraph& graph) { traceLoads(graph, tree, rays, loads); });
+    const std::uint32_t count = device().download(loads.iterations).front() * (tree.isDag() ? 2 : 1);
+    return device().download(loads.sectors, 0, count);
+}
+
+TEST(TraceSvdag, LoadsAreThoseOfTheNodesOnTheWayAndTheirEntries)
+{
+    // A ray through the lowest row: past a voxel in each of two equal leaves, to a third one. Sector 0 has nodes 0
+    // and 1.
+    test::CodeSet set{4, {}};
+    for (const glm::uvec3& voxel : {glm::uvec3(0, 1, 0), glm::uvec3(4, 1, 0), glm::uvec3(8, 0, 0)})
+    {
+        set.codes.push_back(oracle::mortonEncode(voxel));
+    }
+    const Pair trees(set, false);
+    const oracle::Ray ray = oracle::makeRay(glm::vec3(0.5F, 1.03F, 1.03F), {1.0F, 0.0F, 0.0F});
+    using Sectors = std::vector<gpu::uint>;
+    EXPECT_EQ(loadsOf(trees.octree, ray), (Sectors{0, 0, 0, 0, 0, 1, 1, 1, 0, 1}));
+    // Nodes 0 to 2, then the root's list. Where no list is asked, the entry is the first one.
+    EXPECT_EQ(loadsOf(trees.dag, ray), (Sectors{0, 1, 0, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0, 0, 0, 1, 1, 0}));
+}
 
 TEST(TraceSvdag, EveryViewIsTheSame)
 {
