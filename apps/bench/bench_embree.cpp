@@ -15,7 +15,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <glm/glm.hpp>
-#include <limits>
 #include <memory>
 #include <type_traits>
 #include <utility>
@@ -26,8 +25,6 @@ namespace zvo::cli
 
 namespace
 {
-
-constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
 template <typename Handle, auto release> struct Release
 {
@@ -176,7 +173,7 @@ std::uint64_t traceBatch(RTCScene scene, RTCIntersectContext& context, std::span
             at(packet.ray.dir_y, i) = ray.direction.y;
             at(packet.ray.dir_z, i) = ray.direction.z;
             at(packet.ray.time, i) = 0.0F;
-            at(packet.ray.tfar, i) = kInfinity;
+            at(packet.ray.tfar, i) = ray.t_max;
             at(packet.ray.mask, i) = ~0U;
             at(packet.ray.flags, i) = 0;
             at(packet.hit.geomID, i) = RTC_INVALID_GEOMETRY_ID;

@@ -53,10 +53,12 @@ Examples:
 constexpr const char* kRaysFooter = R"(
 Each row is one scene at one resolution: 3 N pictures of 1920x1080 of an octree and of its DAG in turns, after a
 warm-up; the ratio is the DAG's time over the octree's. Where zvo-bench was built with Embree, it traces the same rays
-on all processors, through the same voxels and through the triangles.
+on all processors, through the same voxels and through the triangles. --kinds: shadow rays to the sun and short ambient
+rays from primary hits, rays of 8 bounces, random rays in the grid; what they load is that of 1024 warps.
 
 Examples:
   zvo-bench rays scenes/knot.glb --resolutions 256 --camera close
+  zvo-bench rays scenes/atrium.glb --resolutions 512 --kinds shadow,bounces
   zvo-bench rays --scenes ../models --json rays.json --passes)";
 
 constexpr const char* kDynamicFooter = R"(
@@ -152,6 +154,16 @@ void addRuns(CLI::App& app, RepeatedBenchOptions& options, const char* what = "m
     addCount(app, "--runs", options.run_count, 1000, fmt::format("{} (default 5)", what));
 }
 
+std::vector<std::string> parseKinds(std::string_view option, std::string_view text)
+{
+    std::vector<std::string> kinds = parseNames(option, text);
+    for (const std::string& kind : kinds)
+    {
+        oneOf(option, kind, {"primary", "shadow", "ambient", "bounces", "random", "all"});
+    }
+    return kinds;
+}
+
 void addPassesFlag(CLI::App& app, PassBenchOptions& options)
 {
     app.add_flag("--passes", options.passes, "also tell the time of each pass");
@@ -202,6 +214,8 @@ void addOptions(CLI::App& app, BenchRaysOptions& options)
     addResolutions(app, options, "256,512,1024");
     addRuns(app, options, "measured runs of each row, three pictures each");
     addCameraOption(app, options.camera);
+    addValue(app, "--kinds", options.kinds, parseKinds, "KIND,...",
+             "also measure lists of rays: primary, shadow, ambient, bounces, random, or all");
     addPassesFlag(app, options);
     addLoadOptions(app, options.load);
     addTreeAndDevice(app, options);

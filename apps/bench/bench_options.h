@@ -63,6 +63,7 @@ struct BenchBuildOptions : PassBenchOptions
 struct BenchRaysOptions : PassBenchOptions
 {
     std::string camera;
+    std::vector<std::string> kinds; // of rays that are measured, too, as lists
 };
 
 struct BenchDynamicOptions : PassBenchOptions

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "bench/bench_rays.h"
 
+#include "bench/bench_ray_kinds.h"
 #include "bench/bench_rows.h"
 #include "bench/bench_runs.h"
 #include "bench/bench_table.h"
@@ -105,9 +106,9 @@ Columns<BenchRow> raysColumns()
 
 // Traces octree and DAG in turns, or the octree alone where memory does not suffice for both.
 void tracePictures(vk::HeadlessDevice& device, const DeviceTree& octree, const TraceCamera& camera,
-                   std::uint32_t run_count, BenchRow& row)
+                   const BenchRaysOptions& options, BenchRow& row)
 {
-    const std::uint32_t turn_count = kTraceTurns * run_count;
+    const std::uint32_t turn_count = kTraceTurns * options.run_count;
     TreeTracer tracer(device.device());
     tracer.resize(kRaysWidth, kRaysHeight);
     PrimaryRays octree_rays(device, octree, camera, tracer);
@@ -117,6 +118,13 @@ void tracePictures(vk::HeadlessDevice& device, const DeviceTree& octree, const T
     row.hits = countHits(device, tracer.buffers());
     row.peak_device_bytes = device.device().memory().peakBytes();
     TraceRuns runs;
+    const auto measureKinds = [&](const DeviceTree* dag)
+    {
+        if (!options.kinds.empty())
+        {
+            row.kinds = measureRayKinds(device, octree, dag, camera, {kRaysWidth, kRaysHeight}, options);
+        }
+    };
     const auto in_turns = [&]
     {
         const DeviceTree dag = compress(device, uploadTree(device, downloadTree(device, octree))).dag;
@@ -125,10 +133,12 @@ void tracePictures(vk::HeadlessDevice& device, const DeviceTree& octree, const T
         row.dag = DagSize::of(dag);
         row.trace_dag_ms = runs.dag_ms;
         row.trace_dag_ratio = runs.ratio;
+        measureKinds(&dag);
     };
     if (!withDag(row, in_turns))
     {
         runs = traceAlone(octree_rays, turn_count);
+        measureKinds(nullptr);
     }
     row.trace_ms = runs.octree_ms;
     addPasses(row.passes, runs.octree_passes, 1);
@@ -152,7 +162,7 @@ void benchRays(const BenchRaysOptions& options)
         const Bounds bounds = subjectOf(subject.scene.bounds(), subject.grid);
         const ViewCamera view = chooseCamera(options.camera, subject.scene, bounds, double{kRaysWidth} / kRaysHeight);
         const TraceCamera camera = traceCamera(view, subject.grid, kRaysHeight);
-        tracePictures(device, octree, camera, options.run_count, row);
+        tracePictures(device, octree, camera, options, row);
         traceByEmbree(device, subject, octree, camera, options.run_count, row);
     };
     measureRows(options, table, measure);

@@ -65,6 +65,10 @@ void measureRows(const PassBenchOptions& options, const RowTable& table,
         {
             show(passTable(row.scene, row.resolution, row.passes));
         }
+        if (!row.kinds.empty())
+        {
+            show(rayKindTable(row.scene, row.resolution, row.kinds));
+        }
     }
     checkValidation(device);
     if (report)

@@ -65,6 +65,7 @@ Json rowJson(const BenchRow& row)
     json["embree_user_single_mrays_per_s"] = orNull(row.embree_user_single_mrays_per_s);
     json["embree_triangle_single_mrays_per_s"] = orNull(row.embree_triangle_single_mrays_per_s);
     json["passes"] = passesJson(row.passes);
+    json["kinds"] = rayKindsJson(row.kinds);
     return json;
 }
 

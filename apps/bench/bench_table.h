@@ -3,6 +3,7 @@
 // Each measures a part of it.
 #pragma once
 
+#include "bench/ray_kind_rows.h"
 #include "bench/table.h"
 #include "common/report.h"
 #include "core/tree/device_tree.h"
@@ -77,6 +78,7 @@ struct BenchRow
     std::optional<double> embree_user_single_mrays_per_s; // ray by ray
     std::optional<double> embree_triangle_single_mrays_per_s;
     std::vector<vk::PassTime> passes; // mean of the runs, summed by name
+    std::vector<RayKindRow> kinds;
 
     void setSizes(const DeviceTree& octree);
 

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <functional>
 #include <glm/glm.hpp>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -20,6 +21,7 @@ struct PrimaryRay
     glm::vec3 origin{0.0F};
     glm::vec3 direction{0.0F};
     float t_min = 0.0F;
+    float t_max = std::numeric_limits<float>::infinity();
 };
 
 /// The rays of a picture, block by block; the 16 rays of a block of 4 x 4 pixels are neighbours.

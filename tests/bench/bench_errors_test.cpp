@@ -26,6 +26,7 @@ const std::vector<WrongUse>& wrongUses()
         {"TuneOfTwoResolutions", 2, {"tune", "cube.glb", "--resolution", "8,16"}, {"8,16", "power of two"}},
         {"CameraOfBuild", 2, {"build", "cube.glb", "--camera", "close"}, {"--camera", "zvo-bench build --help"}},
         {"SizeOfRays", 2, {"rays", "cube.glb", "--size", "8x8"}, {"--size"}},
+        {"UnknownKindOfRays", 2, {"rays", "cube.glb", "--kinds", "shadow,far"}, {"--kinds", "far", "bounces"}},
         {"EnvironmentOfRays", 2, {"rays", "cube.glb", "--environment", "sky.exr"}, {"--environment"}},
         {"StructureOfBuild", 2, {"build", "cube.glb", "--structure", "svdag"}, {"--structure"}},
         {"PassesOfBalance", 2, {"balance", "--passes"}, {"--passes"}},

@@ -103,10 +103,37 @@ TEST_F(BenchRun, BuildTellsOfTreesAndWhatMakingThemTakes)
                      static_cast<double>(dag.geometryBytes()));
 }
 
+// Expects rows of these kinds of rays in a closed cube, which all but short ones hit, by Embree as well.
+void expectKinds(const json& rows, const std::vector<std::string>& kinds)
+{
+    ASSERT_EQ(rows.size(), kinds.size());
+    for (std::size_t i = 0; i < kinds.size(); ++i)
+    {
+        const json& row = rows[i];
+        EXPECT_EQ(row["kind"], kinds[i]);
+        EXPECT_GT(row["hits"], 0) << kinds[i];
+        EXPECT_EQ(row["hits"] == row["rays"], kinds[i] == "shadow") << kinds[i];
+        EXPECT_GE(row["longest_of_warp"], 1) << kinds[i];
+        for (const char* tree : {"octree", "dag"})
+        {
+            EXPECT_GT(row[tree]["mrays_per_s"], 0);
+            EXPECT_GE(row[tree]["bytes"], 32);
+            EXPECT_LE(row[tree]["bytes"], 64 * row["iterations"].get<double>());
+            EXPECT_LE(row[tree]["warp_bytes"], row[tree]["bytes"]);
+            EXPECT_GE(row[tree]["load_sectors"], 1);
+        }
+        if (!row["embree_hits"].is_null())
+        {
+            const auto hits = row["hits"].get<double>();
+            EXPECT_NEAR(row["embree_hits"].get<double>(), hits, 1e-4 * hits + 2) << kinds[i];
+        }
+    }
+}
+
 TEST_F(BenchRun, RaysTellsOfPicturesOfTheSameTrees)
 {
-    const Outcome outcome =
-        run({"rays", "cube.glb", "--resolutions", "16,32", "--runs", "1", "--json", "rays.json", "--passes"});
+    const Outcome outcome = run({"rays", "cube.glb", "--resolutions", "16,32", "--runs", "1", "--json", "rays.json",
+                                 "--passes", "--kinds", "shadow,ambient", "--camera=0.5,0.5,0.5,1,0.6,0.7"});
     EXPECT_TRUE(contains(outcome.out, "\n| cube "));
     EXPECT_TRUE(contains(outcome.out, " trace DAG ms |"));
     EXPECT_FALSE(contains(outcome.out, "voxelize"));
@@ -117,11 +144,13 @@ TEST_F(BenchRun, RaysTellsOfPicturesOfTheSameTrees)
     EXPECT_EQ(report["schema"], "zvo.bench/1");
     ASSERT_EQ(report["rows"].size(), 2U);
     std::set<std::string> measured(std::begin(kSizes), std::end(kSizes));
-    measured.insert({"trace_ms", "trace_dag_ms", "trace_dag_ratio", "mrays_per_s", "node_paths_ms", "rays", "hits"});
+    measured.insert(
+        {"trace_ms", "trace_dag_ms", "trace_dag_ratio", "mrays_per_s", "node_paths_ms", "rays", "hits", "kinds"});
     for (const json& row : report["rows"])
     {
         EXPECT_EQ(measuredFields(row), measured);
         EXPECT_GT(row["hits"], 0);
+        expectKinds(row["kinds"], {"shadow", "ambient"});
         EXPECT_GT(row["trace_dag_ms"]["median"], 0);
         EXPECT_GE(row["trace_dag_ratio"]["min"],
                   row["trace_dag_ms"]["min"].get<double>() / row["trace_ms"]["max"].get<double>());
