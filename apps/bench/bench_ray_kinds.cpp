@@ -56,7 +56,7 @@ using Sectors = std::vector<gpu::uint>;
 double countDistinct(Sectors sectors)
 {
     std::ranges::sort(sectors);
-    return static_cast<double>(std::ranges::unique(sectors).begin() - sectors.begin());
+    return static_cast<double>(std::unique(sectors.begin(), sectors.end()) - sectors.begin());
 }
 
 // Sums over warps.
