@@ -37,13 +37,10 @@ inline constexpr std::uint32_t kGroupThreads = 128;
 /// can ask for 32, which leaves each thread twice the registers; else 0, the driver's choice.
 std::uint32_t usualSubgroupSize(const DeviceReport& report);
 
-/// Whether this machine's processors have AVX-512 with vectors of any length, for which software devices then compile.
-bool hasAvx512();
-
 /// How kernels reach their buffers if nobody chooses. Software devices compile atomics on bound buffers to less code
 /// than those on addresses; lavapipe of Mesa 22.3 also compiles loads from addresses to loops over the threads of a
-/// subgroup, which without AVX-512 are slow. Never Auto.
-LoadForm usualLoadForm(const DeviceReport& report, bool has_avx512 = hasAvx512());
+/// subgroup. Never Auto.
+LoadForm usualLoadForm(const DeviceReport& report);
 
 /// What a host hands over. zvo creates none of these handles and destroys none of them. Vulkan cannot be asked what is
 /// enabled, so the host declares it here.

@@ -182,16 +182,7 @@ void applyOverrides(const DeviceOverrides& overrides, DeviceReport& report, VkPh
     report.type = overrides.type.empty() ? report.type : overrides.type;
 }
 
-bool hasAvx512()
-{
-#if defined(__x86_64__)
-    return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl");
-#else
-    return false;
-#endif
-}
-
-LoadForm usualLoadForm(const DeviceReport& report, bool has_avx512)
+LoadForm usualLoadForm(const DeviceReport& report)
 {
     if (report.type != "cpu")
     {
@@ -202,7 +193,7 @@ LoadForm usualLoadForm(const DeviceReport& report, bool has_avx512)
     constexpr int kFastLoads = 25;
     const bool is_lavapipe = report.driver.starts_with(kLavapipe);
     const int version = is_lavapipe ? std::atoi(report.driver.c_str() + kLavapipe.size()) : kFastLoads;
-    return version < kFastLoads && !has_avx512 ? LoadForm::Descriptors : LoadForm::Atomics;
+    return version < kFastLoads ? LoadForm::Descriptors : LoadForm::Atomics;
 }
 
 std::uint32_t usualSubgroupSize(const DeviceReport& report)
