@@ -12,6 +12,7 @@
 #include <initializer_list>
 #include <set>
 #include <string>
+#include <vector>
 
 namespace zvo::test
 {
@@ -38,9 +39,9 @@ std::vector<Machine> machines()
 
 Outcome runOn(const Machine& machine, const TempDir& dir, const CommandLine& arguments)
 {
-    const Outcome outcome = runZvo(dir.path(), arguments,
-                                   {"LP_NUM_THREADS=" + std::to_string(machine.threads),
-                                    "LP_NATIVE_VECTOR_WIDTH=" + std::to_string(machine.vector_bits)});
+    std::vector<std::string> environment = vectorsOf(machine.vector_bits);
+    environment.push_back("LP_NUM_THREADS=" + std::to_string(machine.threads));
+    const Outcome outcome = runZvo(dir.path(), arguments, environment);
     EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
     return outcome;
 }

@@ -187,6 +187,14 @@ std::vector<std::string> filesIn(const std::filesystem::path& folder)
     return names;
 }
 
+std::vector<std::string> vectorsOf(int bits)
+{
+    const std::filesystem::path build = placeOf(ZVO_PROGRAM, "bin/zvo").parent_path().parent_path();
+    const std::filesystem::path kernels = build / ("kernels-" + std::to_string(bits));
+    std::filesystem::create_directories(kernels);
+    return {"LP_NATIVE_VECTOR_WIDTH=" + std::to_string(bits), "MESA_SHADER_CACHE_DIR=" + kernels.string()};
+}
+
 void expectErrorLine(const Outcome& outcome, int exit_code, const std::vector<std::string>& words,
                      const std::string& program)
 {
