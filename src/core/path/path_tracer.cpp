@@ -32,12 +32,12 @@ std::uint64_t batchElements(const PathOptions& options)
     return std::uint64_t{std::min(options.bounces, kBouncesMax) + 2} * gpu::kListElements;
 }
 
-// The paths that a thread of path/trace follows, on average. On software devices one: threads run one after the other
-// there, the first of a workgroup would take all; and loops end early there (shared/trace.h).
+// The paths that a thread of path/trace follows, on average. On software devices one, whatever else is asked for: threads
+// run one after the other there, the first of a workgroup would take all, and loops end early (shared/trace.h).
 std::uint64_t pathsOfThread(const vk::Device& device, std::uint64_t pixel_count)
 {
     const std::uint32_t threads = tunedValue(device, Tunable::PathThreads);
-    return threads == 0 ? 1 : divideUp(pixel_count, threads);
+    return threads == 0 || device.report().type == "cpu" ? 1 : divideUp(pixel_count, threads);
 }
 
 gpu::PathView viewOf(const Grid& grid, const TraceCamera& camera, const PathOptions& options, std::uint32_t width,
