@@ -209,6 +209,8 @@ Json RenderReport::cacheJson(const DeviceRadianceCache& cache) const
     json["rays"] = m_options.frame.radiance.faces;
     json["faces"] = counters.face_count;
     json["faces_refused"] = counters.refused;
+    json["room"] = cache.room();
+    json["crowded"] = cache.isCrowded();
     json["bytes"] = cache.bytes();
     return json;
 }

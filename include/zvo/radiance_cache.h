@@ -23,7 +23,9 @@ struct RadianceCacheInfo
     std::uint32_t width = 160;
     std::uint32_t height = 90;
 
-    std::uint64_t faces = 0; // that there is room for, at most 2^29; 0: 2.5 for each voxel of the first tree
+    // The most faces that are kept, up to 2^29, with the bricks around them; 0: as many as memory has room for. Those
+    // that no ray has hit for longest make room.
+    std::uint64_t faces = 0;
 };
 
 /// Options of a frame.
@@ -38,6 +40,8 @@ struct RadianceCacheStats
 {
     std::uint64_t faces = 0;   // with light
     std::uint64_t refused = 0; // faces for which there was no room, each time that a ray has hit them
+    std::uint64_t room = 0;    // for faces and bricks, in the table as it is
+    bool is_crowded = false;   // there would be more room if RadianceCacheInfo::faces, or memory, allowed it
 };
 
 /// A world-space radiance cache: light on the faces of voxels, which gets better from frame to frame
@@ -62,12 +66,13 @@ public:
     /// sees by itself. In another grid than that of the last call, all begins anew; so it does after a call that failed
     /// or whose frame was lost. The environment must live for as long as shaders read.
     ///
-    /// Memory, from the first call on: a table of 1.5 slots for each face that there is room for, 32 bytes a slot; for
-    /// a DynamicTree a second one, for others once the tree or the number of rays is another; about 360 bytes for each
-    /// of the rays; and what Tracer::tracePaths() takes for lights of the tree. First stages: ALL_TRANSFER,
-    /// COMPUTE_SHADER and DRAW_INDIRECT; last stages: COMPUTE_SHADER and ALL_TRANSFER; on resources of zvo. Before the
-    /// host's shaders read: Recorder::makeVisible(); before the next call: readers of its Recorder. Cost: the camera's
-    /// rays, and up to two rays and two shadow rays for each face that is sampled.
+    /// Memory, from the first call on: 48 bytes for each face and brick that there is room for, at first for what a
+    /// frame may find. When rays find more, faces make room, or what moves has left some, faces move into another
+    /// table, and both are there for a frame. Besides, about 270 bytes for each of the rays, and what
+    /// Tracer::tracePaths() takes for lights of the tree. First stages: ALL_TRANSFER, COMPUTE_SHADER and DRAW_INDIRECT;
+    /// last stages: COMPUTE_SHADER and ALL_TRANSFER; on resources of zvo. Before the host's shaders read:
+    /// Recorder::makeVisible(); before the next call: readers of its Recorder. Cost: the camera's rays, and up to two
+    /// rays and two shadow rays for each face that is sampled.
     ///
     /// Throws Error{Usage} for cameras that are not valid, for numbers out of range, and for an environment or a tree
     /// that was lost; then nothing is recorded. Throws Error{Memory}, and what making a kernel throws; then shaders

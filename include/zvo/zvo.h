@@ -636,9 +636,12 @@ typedef struct ZvoRadianceCacheStats
     size_t struct_size;
     uint64_t faces;
     uint64_t refused;
+    uint64_t room;
+    VkBool32 is_crowded;
+    uint32_t reserved;
 } ZvoRadianceCacheStats;
 
-#define ZVO_RADIANCE_CACHE_STATS_INIT ZVO_STRUCT_INIT(ZvoRadianceCacheStats, 0, 0)
+#define ZVO_RADIANCE_CACHE_STATS_INIT ZVO_STRUCT_INIT(ZvoRadianceCacheStats, 0, 0, 0, VK_FALSE, 0)
 
 ZVO_C_API ZvoResult zvoRadianceCacheCreate(ZvoContext* context, const ZvoRadianceCacheInfo* info,
                                            ZvoRadianceCache** light);

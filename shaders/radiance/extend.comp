@@ -28,7 +28,7 @@ void main()
     uint unlit = threadIndex();
     uint count = listLength(kUnlitPaths, kListPaths);
     bool exists = unlit < count;
-    uint i = params.unlit.data[min(unlit, count - 1u)];
+    uint i = params.numbers.data[kListShadows * params.batch + min(unlit, count - 1u)];
     PathState state = loadState(params.path_states, i);
     Ray ray = loadRay(params.rays, i);
     Hit hit = loadHit(params.hits, i);

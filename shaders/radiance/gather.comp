@@ -77,6 +77,6 @@ void main()
     {
         uint unlit = appendTo(kUnlitPaths, kListPaths, !is_lit);
         if (!is_lit)
-            params.unlit.data[unlit] = i;
+            params.numbers.data[kListShadows * params.batch + unlit] = i;
     }
 }

@@ -20,11 +20,11 @@ void listBrick(uint_Ptr bricks, uint batch, uvec3 cell, uint normal, uint level,
     bool is_new = false;
     if (slot != kNoFace)
         is_new = (atomicOr(params.states.data[slot].mark, kFaceListed) & kFaceListed) == 0u;
-    uint element = (level - 1u) * batch + appendTo(kFirstBricks + level - 1u, kListPaths, is_new);
+    uint i = appendTo(kFirstBricks + level - 1u, kListPaths, is_new);
     if (is_new)
     {
-        bricks.data[element] = slot;
-        params.states.data[slot].recent = element;
+        bricks.data[(level - 1u) * batch + i] = slot;
+        params.states.data[slot].recent = ((level - 1u) & 1u) * batch + i; // where the sum is
     }
 }
 

@@ -39,7 +39,8 @@
 //   radiance/extend    paths that have hit a face without light; for their second rays, the same passes again
 //   radiance/update    adds the samples to the means of faces, and to the sums of bricks of level 1
 //   radiance/update_bricks   adds the sums to the means of bricks of a level, and to the sums of the next level
-//   radiance/evict     into another table, without faces that no ray has hit for long; only while something moves
+//   radiance/evict     into a larger table, or without faces that no ray has hit for long; only where there is little
+//                      room, and while something moves
 //   radiance/view, radiance/direct         what the camera sees of it, and of lamps and the sky
 //   radiance/cones     in place of what it reflects in radiance/view: light through a cone, once for each of six
 //
@@ -132,14 +133,15 @@ const uint kRankFirst = (127u - kFaceRanks / 32u) << (23u - kRankShift);
 struct RadianceCounters
 {
     uint face_count;  // in the table, without bricks
-    uint refused;     // inserts that found no slot
+    uint brick_count; // in the table
+    uint refused;     // inserts of faces that found no slot
     uint rank_limit;  // of the frame, like what follows
     uint arrived;     // threads that have counted (lib/arrivals.glsl)
     uint ranks[1024]; // [kFaceRanks] faces of each
 };
 GPU_BUFFER(RadianceCounters, 4);
 
-const uint kCountersOfFrame = 2u; // words before those that a frame clears
+const uint kCountersOfFrame = 3u; // words before those that a frame clears
 
 struct RadianceRequestParams // push constants of radiance/request: a workgroup for each live tile
 {
@@ -230,14 +232,13 @@ struct RadianceGatherParams // push constants of radiance/gather: a thread a pat
     GPU_PTR(RadianceCounters) counters;
     GPU_PTR(uint) wanted; // of the next frame, as in RadianceRequestParams
     GPU_PTR(DispatchArgs) lists;
-    GPU_PTR(uint) numbers;
+    GPU_PTR(uint) numbers; // as in RadianceBeginParams; of kListShadows, paths that have hit a face without light
     GPU_CONST_PTR(Attribute) attributes; // of voxels, in the format of kFormat
     GPU_CONST_PTR(uvec2) emission_words; // kEmission only
     GPU_CONST_PTR(Ray) rays;
     GPU_CONST_PTR(Hit) hits;
     GPU_CONST_PTR(PathState) path_states; // kEnds only
     GPU_PTR(vec3) radiance;
-    GPU_PTR(uint) unlit; // [batch] unless kEnds: paths that have hit a face without light
     uint batch;
     uint run_count;
     uint frame;
@@ -262,9 +263,8 @@ struct RadianceExtendParams // push constants of radiance/extend: a thread a pat
     GPU_PTR(Ray) next_rays; // [batch] second ones, like the next
     GPU_PTR(PathState) next_states;
     GPU_PTR(DispatchArgs) lists;
-    GPU_PTR(uint) numbers;     // [kListCount][batch] as in PathShadeParams
-    GPU_CONST_PTR(uint) unlit; // [batch] as in RadianceGatherParams
-    GPU_PTR(vec3) radiance;    // [batch]
+    GPU_PTR(uint) numbers;  // [kListCount][batch] as in RadianceGatherParams
+    GPU_PTR(vec3) radiance; // [batch]
     uint batch;
     uint run_count;
     uint sample_index;
@@ -282,7 +282,7 @@ struct RadianceUpdateParams // push constants of radiance/update: a thread a pat
     GPU_CONST_PTR(uint) numbers;
     GPU_CONST_PTR(vec3) radiance;
     GPU_PTR(DispatchArgs) lists;
-    GPU_PTR(BrickSum) sums; // [kBrickLevels][batch]
+    GPU_PTR(BrickSum) sums; // [2][batch] of a level and of the next, by (level - 1) & 1
     uint batch;
     uint run_count;
     uint frame;
@@ -308,18 +308,24 @@ struct RadianceUpdateBricksParams // push constants of radiance/update_bricks: a
 };
 GPU_KERNEL(radiance, update_bricks, UpdateBricks, RadianceUpdateBricksParams, GPU_NO_CONSTANTS)
 
-struct RadianceEvictParams // push constants of radiance/evict: a thread a slot of the old table
+struct RadianceEvictParams // push constants of radiance/evict: a thread a slot of what moves
 {
-    GPU_PTR(CachedFace) faces; // of the new table, empty, like the next two
+    GPU_PTR(CachedFace) faces; // of the table that they move to, like the next one: empty
     GPU_PTR(FaceState) states;
-    GPU_PTR(RadianceCounters) counters; // cleared
+    GPU_PTR(RadianceCounters) counters; // of the table: faces without a place are taken off
     GPU_CONST_PTR(CachedFace) old_faces;
     GPU_CONST_PTR(FaceState) old_states;
-    uint run_count; // of both tables
+    GPU_PTR(uint) wanted; // as in RadianceRequestParams
+    GPU_PTR(DispatchArgs) lists;
+    uint run_count;
+    uint old_slots;
     uint frame;
     uint age_max; // frames; faces that no ray has hit for longer are left out
 };
-GPU_KERNEL(radiance, evict, Evict, RadianceEvictParams, GPU_NO_CONSTANTS)
+#define RADIANCE_EVICT_CONSTANTS(CONSTANT)                                                                             \
+    CONSTANT(0, bool, relists, kRelists, false)  /* faces that are listed stay so; else marks say that none is */      \
+    CONSTANT(1, bool, in_place, kInPlace, false) /* both tables are the same one: only marks change */
+GPU_KERNEL(radiance, evict, Evict, RadianceEvictParams, RADIANCE_EVICT_CONSTANTS)
 
 struct RadianceViewParams // push constants of radiance/view: a thread a pixel, in the order of path/path.h
 {

@@ -40,8 +40,8 @@ void main()
     uint i = threadIndex();
     if (i >= listLength(kFirstBricks + params.level - 1u, kListPaths))
         return;
-    uint index = (params.level - 1u) * params.batch + i;
-    uint slot = params.bricks.data[index];
+    uint index = ((params.level - 1u) & 1u) * params.batch + i;
+    uint slot = params.bricks.data[(params.level - 1u) * params.batch + i];
     BrickSum sum = params.sums.data[index];
     params.sums.data[index] = BrickSum(uvec3(0u), 0u, 0, 0);
     CachedFace face = loadFace(slot);

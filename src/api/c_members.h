@@ -117,7 +117,8 @@ ZVO_C_STRUCT(ZvoRadianceCacheInfo, RadianceCacheInfo, ZVO_RADIANCE_CACHE_INFO_IN
 ZVO_C_STRUCT(ZvoCachedFrameInfo, CachedFrameInfo, ZVO_CACHED_FRAME_INFO_INIT, (it.rays, it.seed), ());
 ZVO_C_STRUCT(ZvoCachedPictureInfo, CachedPictureInfo, ZVO_CACHED_PICTURE_INFO_INIT,
              (it.automatic_exposure, it.exposure, it.shading), ());
-ZVO_C_STRUCT(ZvoRadianceCacheStats, RadianceCacheStats, ZVO_RADIANCE_CACHE_STATS_INIT, (it.faces, it.refused), ());
+ZVO_C_STRUCT(ZvoRadianceCacheStats, RadianceCacheStats, ZVO_RADIANCE_CACHE_STATS_INIT,
+             (it.faces, it.refused, it.room, it.is_crowded), ());
 
 #undef ZVO_C_STRUCT
 

@@ -6,25 +6,15 @@
 #include "api/environment_impl.h"
 #include "api/radiance_cache_impl.h"
 #include "api/shown_tree.h"
-#include "core/radiance/radiance_cache_table.h"
+#include "core/radiance/device_radiance_cache.h"
 
-#include <cstddef>
-#include <deque>
+#include <cstdint>
 #include <optional>
 #include <span>
 #include <utility>
-#include <vector>
 
 namespace zvo
 {
-
-namespace
-{
-
-// The counts that begin gpu::RadianceCounters.
-constexpr std::size_t kCounts = 2;
-
-} // namespace
 
 RadianceCache::Impl::Impl(Context::Impl& context_impl, const RadianceCacheInfo& light_info)
     : context(context_impl), info(checked(light_info)),
@@ -32,16 +22,13 @@ RadianceCache::Impl::Impl(Context::Impl& context_impl, const RadianceCacheInfo& 
       table(context.device, "radiance cache table", 1)
 {
     renderer->resize(info.width, info.height);
+    renderer->cache().setRoom(0, info.faces == 0 ? UINT64_MAX : info.faces);
 }
 
 RadianceCache::Impl::~Impl()
 {
     context.deleteLater(std::move(renderer));
     context.deleteLater(std::move(table));
-    for (Report& report : m_reports)
-    {
-        context.deleteLater(std::move(report.counts));
-    }
 }
 
 template <typename AnyTree>
@@ -60,25 +47,15 @@ void RadianceCache::Impl::update(Recorder& recorder, AnyTree& any_tree, Environm
         recorder,
         [&](Recorder::Impl& impl)
         {
-            learn();
-            if (m_frame && m_frame->is_lost)
-            {
-                renderer->forgetNodePaths();
-                renderer->cache().forget();
-            }
+            forgetIfLost();
             m_frame = impl.frame;
             environment.enter(impl.frame);
             try
             {
                 follow(
                     {.tree = shown.identity, .changes = shown.edit_count, .grid = tree.grid, .version = tree.version});
-                if (info.faces != 0)
-                {
-                    renderer->cache().reserveFaces(info.faces);
-                }
                 renderer->settle(impl.graph, {tree, camera, &environment.light}, options);
-                publish(impl.graph, radianceCacheTable(renderer->cache(), environment.light));
-                report(impl);
+                publish(impl.graph, renderer->cache().cacheTable(environment.light));
             }
             catch (...) // buffers may have been replaced, and hold no light that is complete
             {
@@ -108,37 +85,12 @@ void RadianceCache::Impl::publish(vk::FrameGraph& graph, const gpu::RadianceCach
     graph.update(table, 0, std::span(&values, 1));
 }
 
-// Records the copy of the frame's counts to the host.
-void RadianceCache::Impl::report(Recorder::Impl& recorder)
+void RadianceCache::Impl::forgetIfLost()
 {
-    vk::BufferOf<gpu::uint> counts;
-    if (!m_free_counts.empty())
+    if (m_frame && m_frame->is_lost)
     {
-        counts = std::move(m_free_counts.back());
-        m_free_counts.pop_back();
-    }
-    else
-    {
-        counts = {context.device, "radiance cache counts", kCounts, vk::MemoryKind::Readback};
-    }
-    recorder.graph.copy(renderer->cache().counters(), 0, counts, 0, counts.bytes());
-    recorder.graph.releaseToHost(); // what learn() reads
-    m_reports.push_back({recorder.frame, std::move(counts)});
-}
-
-// Takes the counts of frames that are done.
-void RadianceCache::Impl::learn()
-{
-    while (!m_reports.empty() && (m_reports.front().frame->is_done || m_reports.front().frame->is_lost))
-    {
-        Report& first = m_reports.front();
-        if (first.frame->is_done)
-        {
-            const auto* const counts = first.counts.mappedData();
-            newest = {counts[0], counts[1]};
-        }
-        m_free_counts.push_back(std::move(first.counts));
-        m_reports.pop_front();
+        renderer->forgetNodePaths();
+        renderer->cache().forget();
     }
 }
 
@@ -185,8 +137,10 @@ void RadianceCache::forget()
 RadianceCacheStats RadianceCache::stats()
 {
     Impl& light = usable(*this);
-    light.learn();
-    return light.newest;
+    light.forgetIfLost();
+    DeviceRadianceCache& cache = light.renderer->cache();
+    const RadianceCounts counts = cache.counts();
+    return {counts.faces, counts.refused, cache.room(), cache.isCrowded()};
 }
 
 std::uint64_t RadianceCache::bytes() const

@@ -7,10 +7,8 @@
 #include "zvo/radiance_cache.h"
 
 #include <cstdint>
-#include <deque>
 #include <memory>
 #include <optional>
-#include <vector>
 
 namespace zvo
 {
@@ -31,14 +29,13 @@ struct ZVO_LOCAL RadianceCache::Impl
     /// Throws Error{Usage} unless the last update was of this tree, as it is.
     void requireShown(const DeviceTree& tree) const;
 
-    /// Takes the counts of frames that are done.
-    void learn();
+    /// Has the renderer forget what a lost frame has recorded.
+    void forgetIfLost();
 
     Context::Impl& context;
     RadianceCacheInfo info;
     std::unique_ptr<FrameRenderer> renderer; // of the camera's rays; keeps the light
     vk::BufferOf<gpu::RadianceCacheTable> table;
-    RadianceCacheStats newest = {};
 
 private:
     // Which voxels the light is of.
@@ -50,21 +47,11 @@ private:
         std::uint64_t version; // DeviceTree::version
     };
 
-    // The counts of an update, in a frame that is not known to be done.
-    struct Report
-    {
-        std::shared_ptr<FrameState> frame;
-        vk::BufferOf<gpu::uint> counts;
-    };
-
     void follow(const Shown& now);
     void publish(vk::FrameGraph& graph, const gpu::RadianceCacheTable& values);
-    void report(Recorder::Impl& recorder);
 
     std::shared_ptr<FrameState> m_frame = nullptr; // of the last update
     std::optional<Shown> m_shown = std::nullopt;   // by it
-    std::deque<Report> m_reports = {};
-    std::vector<vk::BufferOf<gpu::uint>> m_free_counts = {};
 };
 
 } // namespace zvo

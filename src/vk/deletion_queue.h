@@ -3,9 +3,11 @@
 
 #include "vk/frame_list.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <deque>
 #include <memory>
+#include <optional>
 #include <type_traits>
 #include <utility>
 
@@ -18,9 +20,20 @@ class DeletionQueue final : public FrameParticipant
 {
 public:
     /// Sets the current frame: objects that are kept from now on may be used by this frame and by earlier ones.
-    void beginFrame(std::uint64_t frame) override { m_frame = frame; }
+    /// A number that frameDone() has had, such as that of a frame which was lost, then stands for this frame.
+    void beginFrame(std::uint64_t frame) override
+    {
+        m_frame = frame;
+        if (m_done && *m_done >= frame)
+        {
+            m_done = frame == 0 ? std::nullopt : std::optional(frame - 1);
+        }
+    }
 
     [[nodiscard]] std::uint64_t frame() const { return m_frame; }
+
+    /// Whether the device is done with a frame, as far as it was told.
+    [[nodiscard]] bool isDone(std::uint64_t frame) const { return m_done && frame <= *m_done; }
 
     /// Puts an object into the queue. Returns a reference to it, valid until the device is done with the current frame.
     template <typename T> std::decay_t<T>& keep(T&& thing)
@@ -33,6 +46,7 @@ public:
     /// Tells that the device is done with a frame and all frames before it: destroys what only these may use.
     void frameDone(std::uint64_t frame) override
     {
+        m_done = std::max(m_done.value_or(frame), frame);
         while (!m_things.empty() && m_things.front().frame <= frame)
         {
             m_things.pop_front();
@@ -47,7 +61,8 @@ private:
     };
 
     std::uint64_t m_frame = 0;
-    std::deque<Thing> m_things; // in order of frames
+    std::optional<std::uint64_t> m_done; // the newest frame that is
+    std::deque<Thing> m_things;          // in order of frames
 };
 
 /// Puts `made` in the place of `old`, which queue keeps; without a queue it is destroyed at once.

@@ -87,8 +87,31 @@ TEST_F(CliCache, ReportsWhatIsCached)
     EXPECT_EQ(cached["rays"], 1000);
     EXPECT_GT(cached["faces"], 150);
     EXPECT_EQ(cached["faces_refused"], 0);
-    EXPECT_GT(cached["bytes"], 24 * cached["faces"].get<int>());
+    EXPECT_EQ(cached["crowded"], false);
+    EXPECT_GE(cached["room"], cached["faces"]);
+    EXPECT_GT(cached["bytes"], 47 * cached["room"].get<int>());
     EXPECT_EQ(radiance("picture.exr").front(), glm::vec3(0.5F)) << "the sky";
+}
+
+// Without memory for a larger table there is a picture, by the faces that the last one has room for.
+TEST_F(CliCache, ReportsATableThatMustNotGrow)
+{
+    const std::string fine =
+        "render cube.glb -f --size 160x120 --resolution 128 --integrator cache --settle 24 --spp 1 "
+        "--rays 500 -o fine.png --json - ";
+    const json most = printedBy(fine);
+    EXPECT_EQ(most["cached"]["crowded"], false);
+    json cached;
+    for (std::uint64_t limit = most["bytes"]["peak_device"].get<std::uint64_t>() + 1000000; cached["crowded"] != true;)
+    {
+        limit -= 250000;
+        const json report = printedBy(fine + "--memory-limit " + std::to_string(limit));
+        ASSERT_TRUE(report.contains("cached")) << limit;
+        cached = report["cached"];
+    }
+    EXPECT_LT(cached["room"], most["cached"]["room"]);
+    EXPECT_LT(cached["bytes"], most["cached"]["bytes"]);
+    EXPECT_GT(cached["faces"], 2000);
 }
 
 // A sequence has one cache: its light settles once. The integrator is asked for by its old name.

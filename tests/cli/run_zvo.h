@@ -73,8 +73,8 @@ std::vector<std::string> zvoCommand(std::vector<std::string> arguments);
 Outcome runZvo(const std::filesystem::path& folder, const CommandLine& arguments,
                const std::vector<std::string>& environment = {});
 
-/// The environment in which a software device has vectors of so many bits, and its own cache of kernels: scripts/vectors
-/// says why.
+/// The environment in which a software device has vectors of so many bits, and its own cache of kernels:
+/// scripts/vectors says why.
 std::vector<std::string> vectorsOf(int bits);
 
 /// A command line that a program refuses.

@@ -4,7 +4,7 @@
 
 #include "core/frame/frame_renderer.h"
 #include "core/light/environment.h"
-#include "core/radiance/radiance_cache_table.h"
+#include "core/radiance/device_radiance_cache.h"
 #include "core/tree/device_tree.h"
 #include "glsl/host_device.h"
 #include "glsl/host_trees.h"
@@ -48,7 +48,7 @@ struct HostLight
             });
     }
 
-    [[nodiscard]] gpu::RadianceCacheTable table() { return radianceCacheTable(tracer.cache(), environment); }
+    [[nodiscard]] gpu::RadianceCacheTable table() { return tracer.cache().cacheTable(environment); }
 
     /// Runs a host's kernel with a thread for each of given. Its push constants are cache, tree, given, results, their
     /// number and more.

@@ -118,6 +118,24 @@ TEST(Readback, HoldsPartsOfSeveralBuffers)
                  { EXPECT_THROW(readback.copy(graph, b, 0, 9), Error) << "44 bytes are taken"; });
 }
 
+// The number of a frame that was lost may come again.
+TEST(DeletionQueue, TellsWhichFramesAreDone)
+{
+    DeletionQueue deletion_queue;
+    deletion_queue.beginFrame(0);
+    EXPECT_FALSE(deletion_queue.isDone(0));
+    deletion_queue.beginFrame(1);
+    deletion_queue.frameDone(1);
+    EXPECT_TRUE(deletion_queue.isDone(0));
+    EXPECT_TRUE(deletion_queue.isDone(1));
+    deletion_queue.beginFrame(1);
+    EXPECT_TRUE(deletion_queue.isDone(0));
+    EXPECT_FALSE(deletion_queue.isDone(1));
+    deletion_queue.frameDone(UINT64_MAX);
+    deletion_queue.beginFrame(2);
+    EXPECT_FALSE(deletion_queue.isDone(2));
+}
+
 } // namespace
 
 } // namespace zvo::vk

@@ -22,8 +22,8 @@ void takeList(vk::FrameGraph& graph, const Kernel& kernel, std::uint32_t list, c
     params.rays = pass.read(batch.rays.at(paths));
     params.states = pass.read(batch.states.at(paths));
     params.hits = pass.read(batch.hits);
-    params.shadow_rays = pass.readWrite(batch.shadow_rays);
-    params.shadow_states = pass.readWrite(batch.shadow_states);
+    params.shadow_rays = pass.readWrite(batch.shadowRays(paths));
+    params.shadow_states = batch.useShadowStates(pass, paths);
     params.radiance = pass.readWrite(batch.radiance);
     params.lists = pass.readWrite(batch.lists);
     params.numbers = pass.read(batch.numbers);
@@ -35,30 +35,34 @@ void takeList(vk::FrameGraph& graph, const Kernel& kernel, std::uint32_t list, c
 
 } // namespace
 
-PathBatch::PathBatch(vk::Device& device, std::uint64_t path_count, std::size_t list_count, std::uint32_t set_count)
+PathBatch::PathBatch(vk::Device& device, std::uint64_t path_count, bool shares, std::uint32_t set_count)
     : lists(device, "path/lists", std::uint64_t{set_count} * gpu::kListElements)
 {
     if (path_count == 0)
     {
         return;
     }
-    for (std::size_t i = 0; i < list_count; ++i)
+    for (std::size_t i = 0; i < rays.size(); ++i)
     {
         rays.at(i) = {device, "path/rays", path_count};
         states.at(i) = {device, "path/states", path_count};
     }
     hits = {device, "path/hits", path_count};
-    shadow_rays = {device, "path/shadow_rays", path_count};
-    shadow_states = {device, "path/shadow_states", path_count};
+    if (!shares)
+    {
+        shadow_rays = {device, "path/shadow_rays", path_count};
+        shadow_states = {device, "path/shadow_states", path_count};
+    }
     radiance = {device, "path/radiance", path_count};
     numbers = {device, "path/numbers", gpu::kListCount * path_count};
     rounds = {device, "path/rounds", gpu::kTraceRoundsMax};
 }
 
-std::uint64_t PathBatch::bytesFor(std::uint64_t path_count, std::size_t list_count)
+std::uint64_t PathBatch::bytesFor(std::uint64_t path_count, bool shares)
 {
-    return path_count * ((list_count + 1) * sizeof(gpu::Ray) + list_count * sizeof(gpu::PathState) + sizeof(gpu::Hit) +
-                         sizeof(gpu::ShadowState) + sizeof(gpu::vec3) + gpu::kListCount * sizeof(gpu::uint));
+    return path_count *
+           (2 * (sizeof(gpu::Ray) + sizeof(gpu::PathState)) + sizeof(gpu::Hit) + sizeof(gpu::vec3) +
+            gpu::kListCount * sizeof(gpu::uint) + (shares ? 0 : sizeof(gpu::Ray) + sizeof(gpu::ShadowState)));
 }
 
 std::uint64_t PathBatch::bytes() const
@@ -119,11 +123,11 @@ void addChosenLight(vk::FrameGraph& graph, const PathLight& light, PathBatch& ba
                  gpu::kListVoxelLights, light, batch, paths, bounce);
     }
     const RayListLength shadows = listLength(batch.lists, bounce, gpu::kListShadows);
-    traceRays(graph, light.tree, batch.shadow_rays, batch.hits, batch.rounds, light.status, {}, &shadows);
+    traceRays(graph, light.tree, batch.shadowRays(paths), batch.hits, batch.rounds, light.status, {}, &shadows);
     vk::Pass pass = graph.addPass(gpu::path::Connect{.notes = light.first_noted.has_value()});
     gpu::PathConnectParams params{};
     params.hits = pass.read(batch.hits);
-    params.shadow_states = pass.read(batch.shadow_states);
+    params.shadow_states = {batch.useShadowStates(pass, paths).address};
     params.radiance = pass.readWrite(batch.radiance);
     params.lists = pass.readWrite(batch.lists);
     if (light.first_noted)

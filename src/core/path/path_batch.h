@@ -29,11 +29,23 @@ struct PathBatch
 {
     PathBatch() = default;
 
-    /// For paths in one list or in two. set_count: of lists. Of no paths, only these are made.
-    PathBatch(vk::Device& device, std::uint64_t path_count, std::size_t list_count, std::uint32_t set_count);
+    /// For paths in two lists. shares: the shadow rays of one take the place of the other's paths. set_count: of lists.
+    /// Of no paths, only these are made.
+    PathBatch(vk::Device& device, std::uint64_t path_count, bool shares, std::uint32_t set_count);
 
     /// Bytes that the lists of paths take, without those that tell their lengths.
-    static std::uint64_t bytesFor(std::uint64_t path_count, std::size_t list_count);
+    static std::uint64_t bytesFor(std::uint64_t path_count, bool shares);
+
+    /// Where the shadow rays of a list of paths are.
+    [[nodiscard]] vk::BufferOf<gpu::Ray>& shadowRays(std::size_t paths)
+    {
+        return shadow_rays.count() == 0 ? rays.at(1 - paths) : shadow_rays;
+    }
+    [[nodiscard]] gpu::Ptr<gpu::ShadowState> useShadowStates(vk::AnyPass& pass, std::size_t paths)
+    {
+        return shadow_states.count() == 0 ? gpu::Ptr<gpu::ShadowState>{pass.readWrite(states.at(1 - paths)).address}
+                                          : pass.readWrite(shadow_states);
+    }
 
     [[nodiscard]] std::uint64_t capacity() const { return radiance.count(); }
     [[nodiscard]] std::uint64_t bytes() const;
@@ -41,7 +53,7 @@ struct PathBatch
     std::array<vk::BufferOf<gpu::Ray>, 2> rays;         // [capacity] of each list of paths
     std::array<vk::BufferOf<gpu::PathState>, 2> states; // [capacity] likewise
     vk::BufferOf<gpu::Hit> hits;                        // [capacity]
-    vk::BufferOf<gpu::Ray> shadow_rays;                 // [capacity]
+    vk::BufferOf<gpu::Ray> shadow_rays;                 // [capacity] unless they are shared, like the next
     vk::BufferOf<gpu::ShadowState> shadow_states;       // [capacity]
     vk::BufferOf<gpu::vec3> radiance;                   // [capacity] by slots
     vk::BufferOf<gpu::uint> numbers;                    // [kListCount][capacity]

@@ -32,8 +32,8 @@ std::uint64_t batchElements(const PathOptions& options)
     return std::uint64_t{std::min(options.bounces, kBouncesMax) + 2} * gpu::kListElements;
 }
 
-// The paths that a thread of path/trace follows, on average. On software devices one, whatever else is asked for: threads
-// run one after the other there, the first of a workgroup would take all, and loops end early (shared/trace.h).
+// The paths that a thread of path/trace follows, on average. On software devices one, whatever else is asked for:
+// threads run one after the other there, the first of a workgroup would take all, and loops end early (shared/trace.h).
 std::uint64_t pathsOfThread(const vk::Device& device, std::uint64_t pixel_count)
 {
     const std::uint32_t threads = tunedValue(device, Tunable::PathThreads);
@@ -91,10 +91,10 @@ PathTracer::Pixels::Pixels(vk::Device& device, std::uint32_t picture_width, std:
     const std::uint64_t pixel_count = std::uint64_t{width} * height;
     const bool in_stages = form == PathForm::Stages;
     const std::uint64_t batch_pixels = in_stages ? std::min(pixel_count, kBatchMax) : 0;
-    device.memory().require(pixel_count * sizeof(gpu::PixelSum) + PathBatch::bytesFor(batch_pixels, kPathLists),
+    device.memory().require(pixel_count * sizeof(gpu::PixelSum) + PathBatch::bytesFor(batch_pixels, false),
                             "path tracing");
     sums = {device, "path/sums", pixel_count};
-    batch = {device, batch_pixels, kPathLists, in_stages ? kBouncesMax + 2 : 1};
+    batch = {device, batch_pixels, false, in_stages ? kBouncesMax + 2 : 1};
     if (!in_stages)
     {
         view = {device, "path/view", 1};

@@ -44,7 +44,7 @@ void clear(vk::FrameGraph& graph, const RadianceFrame& frame)
     {
         graph.fill(frame.table.faces, 0);
         graph.fill(frame.table.states, 0);
-        graph.fill(frame.table.counters, 0);
+        graph.fill(frame.counters, 0);
         graph.fill(frame.status, 0);
         graph.fill(batch.lists, 0);
         graph.fill(frame.lists.sums, 0);
@@ -53,7 +53,7 @@ void clear(vk::FrameGraph& graph, const RadianceFrame& frame)
     graph.fill(batch.lists, 0, 0, gpu::kWantedEven * kWords);
     graph.fill(batch.lists, 0, requestedList(frame.number + 1) * kWords, kWords);
     graph.fill(batch.lists, 0, gpu::kFirstBricks * kWords, gpu::kBrickLevels * kWords);
-    graph.fill(frame.table.counters, 0, gpu::kCountersOfFrame,
+    graph.fill(frame.counters, 0, gpu::kCountersOfFrame,
                sizeof(gpu::RadianceCounters) / sizeof(gpu::uint) - gpu::kCountersOfFrame);
 }
 
@@ -65,7 +65,7 @@ void request(vk::FrameGraph& graph, const RadianceFrame& frame)
     pass.dispatchIndirect(frame.seen.args, 0,
                           {.faces = pass.readWrite(frame.table.faces),
                            .states = pass.readWrite(frame.table.states),
-                           .counters = pass.readWrite(frame.table.counters),
+                           .counters = pass.readWrite(frame.counters),
                            .wanted = pass.readWrite(frame.lists.wanted.at(frame.number % 2)),
                            .lists = pass.readWrite(frame.lists.batch.lists),
                            .hits = pass.read(frame.seen.hits),
@@ -88,7 +88,7 @@ void count(vk::FrameGraph& graph, const RadianceFrame& frame)
                           {.faces = pass.read(frame.table.faces),
                            .states = pass.read(frame.table.states),
                            .wanted = pass.read(frame.lists.wanted.at(frame.number % 2)),
-                           .counters = pass.readWrite(frame.table.counters),
+                           .counters = pass.readWrite(frame.counters),
                            .lists = pass.readWrite(batch.lists),
                            .frame = frame.number,
                            .budget = frame.lists.faces},
@@ -103,7 +103,7 @@ void select(vk::FrameGraph& graph, const RadianceFrame& frame)
                           {.faces = pass.read(frame.table.faces),
                            .states = pass.readWrite(frame.table.states),
                            .wanted = pass.read(frame.lists.wanted.at(frame.number % 2)),
-                           .counters = pass.read(frame.table.counters),
+                           .counters = pass.read(frame.counters),
                            .lists = pass.readWrite(batch.lists),
                            .numbers = pass.readWrite(batch.numbers),
                            .frame = frame.number},
@@ -118,7 +118,7 @@ void begin(vk::FrameGraph& graph, const RadianceFrame& frame)
     pass.dispatchIndirect(batch.lists, listArgs(0, gpu::kListPaths),
                           {.faces = pass.readWrite(frame.table.faces),
                            .states = pass.readWrite(frame.table.states),
-                           .counters = pass.readWrite(frame.table.counters),
+                           .counters = pass.readWrite(frame.counters),
                            .gives = pass.read(frame.environment.gives()),
                            .light_nodes = emits ? pass.read(frame.lights.nodes()) : gpu::ConstPtr<gpu::LightNode>{},
                            .lists = pass.readWrite(batch.lists),
@@ -141,7 +141,7 @@ void surround(vk::FrameGraph& graph, const RadianceFrame& frame, std::uint32_t l
     pass.dispatchIndirect(batch.lists, listArgs(gpu::kFirstBricks + level - 2, gpu::kListPaths),
                           {.faces = pass.readWrite(frame.table.faces),
                            .states = pass.readWrite(frame.table.states),
-                           .counters = pass.readWrite(frame.table.counters),
+                           .counters = pass.readWrite(frame.counters),
                            .lists = pass.readWrite(batch.lists),
                            .bricks = pass.readWrite(frame.lists.bricks),
                            .batch = static_cast<std::uint32_t>(batch.capacity()),
@@ -160,7 +160,7 @@ void gather(vk::FrameGraph& graph, const RadianceFrame& frame, std::uint32_t ray
     gpu::RadianceGatherParams params{};
     params.faces = pass.readWrite(frame.table.faces);
     params.states = pass.readWrite(frame.table.states);
-    params.counters = pass.readWrite(frame.table.counters);
+    params.counters = pass.readWrite(frame.counters);
     params.wanted = pass.readWrite(frame.lists.wanted.at((frame.number + 1) % 2));
     params.lists = pass.readWrite(batch.lists);
     params.numbers = pass.readWrite(batch.numbers);
@@ -171,14 +171,7 @@ void gather(vk::FrameGraph& graph, const RadianceFrame& frame, std::uint32_t ray
     }
     params.rays = pass.read(batch.rays.at(ray));
     params.hits = pass.read(batch.hits);
-    if (ray == 0)
-    {
-        params.unlit = pass.readWrite(frame.lists.unlit);
-    }
-    else
-    {
-        params.path_states = pass.read(batch.states.at(ray));
-    }
+    params.path_states = pass.readIf(ray != 0, batch.states.at(ray));
     params.radiance = pass.readWrite(batch.radiance);
     params.batch = static_cast<std::uint32_t>(batch.capacity());
     params.run_count = frame.table.run_count;
@@ -207,7 +200,6 @@ void extend(vk::FrameGraph& graph, const RadianceFrame& frame)
                            .next_states = pass.readWrite(batch.states[1]),
                            .lists = pass.readWrite(batch.lists),
                            .numbers = pass.readWrite(batch.numbers),
-                           .unlit = pass.read(frame.lists.unlit),
                            .radiance = pass.readWrite(batch.radiance),
                            .batch = static_cast<std::uint32_t>(batch.capacity()),
                            .run_count = frame.table.run_count,
@@ -259,18 +251,12 @@ void updateBricks(vk::FrameGraph& graph, const RadianceFrame& frame, std::uint32
 
 } // namespace
 
-RadianceTable::RadianceTable(vk::Device& device, std::uint64_t runs)
-    : run_count(static_cast<std::uint32_t>(runs)), counters(device, "radiance/counters", 1)
+RadianceTable::RadianceTable(vk::Device& device, std::uint64_t runs) : run_count(static_cast<std::uint32_t>(runs))
 {
     const std::uint64_t slots = gpu::kFaceRun * runs;
     device.memory().require(slots * (sizeof(gpu::CachedFace) + sizeof(gpu::FaceState)), kPurpose);
     faces = {device, "radiance/faces", slots};
     states = {device, "radiance/states", slots};
-}
-
-std::uint64_t RadianceTable::bytes() const
-{
-    return faces.bytes() + states.bytes() + counters.bytes();
 }
 
 RadianceLists::RadianceLists(vk::Device& device, std::uint32_t face_count, std::uint32_t picture_width,
@@ -281,42 +267,21 @@ RadianceLists::RadianceLists(vk::Device& device, std::uint32_t face_count, std::
     const std::uint64_t wanted_max =
         kFaceRays * std::uint64_t{faces} + quadsOf(width, height) * requestTurns(width, height, faces);
     const std::uint64_t brick_count = gpu::kBrickLevels * std::uint64_t{faces};
-    device.memory().require(PathBatch::bytesFor(faces, kFaceRays) + faces * sizeof(gpu::uint) +
-                                2 * wanted_max * sizeof(gpu::uint) +
-                                brick_count * (sizeof(gpu::uint) + sizeof(gpu::BrickSum)),
+    device.memory().require(PathBatch::bytesFor(faces, true) + (2 * wanted_max + brick_count) * sizeof(gpu::uint) +
+                                2 * faces * sizeof(gpu::BrickSum),
                             kPurpose);
     for (vk::BufferOf<gpu::uint>& slots : wanted)
     {
         slots = {device, "radiance/wanted", wanted_max};
     }
-    batch = {device, faces, kFaceRays, gpu::kFirstBricks + gpu::kBrickLevels};
-    unlit = {device, "radiance/unlit", faces};
+    batch = {device, faces, true, gpu::kFirstBricks + gpu::kBrickLevels};
     bricks = {device, "radiance/bricks", brick_count};
-    sums = {device, "radiance/brick_sums", brick_count};
+    sums = {device, "radiance/brick_sums", 2 * std::uint64_t{faces}};
 }
 
 std::uint64_t RadianceLists::bytes() const
 {
-    return wanted[0].bytes() + wanted[1].bytes() + batch.bytes() + unlit.bytes() + bricks.bytes() + sums.bytes();
-}
-
-void evictFaces(vk::FrameGraph& graph, const RadianceTable& from, RadianceTable& to, RadianceLists& lists,
-                std::uint32_t frame, std::uint32_t age_max)
-{
-    graph.fill(to.faces, 0);
-    graph.fill(to.states, 0);
-    graph.fill(to.counters, 0);
-    graph.fill(lists.batch.lists, 0);
-    graph.fill(lists.sums, 0);
-    vk::Pass pass = graph.addPass(gpu::radiance::Evict{});
-    pass.dispatch(to.faces.count(), {.faces = pass.readWrite(to.faces),
-                                     .states = pass.readWrite(to.states),
-                                     .counters = pass.readWrite(to.counters),
-                                     .old_faces = pass.read(from.faces),
-                                     .old_states = pass.read(from.states),
-                                     .run_count = to.run_count,
-                                     .frame = frame,
-                                     .age_max = age_max});
+    return wanted[0].bytes() + wanted[1].bytes() + batch.bytes() + bricks.bytes() + sums.bytes();
 }
 
 void sampleFaces(vk::FrameGraph& graph, const RadianceFrame& frame)

@@ -33,12 +33,11 @@ inline constexpr std::uint32_t kRadianceFacesMax = 1U << 22;
 struct RadianceTable
 {
     RadianceTable(vk::Device& device, std::uint64_t runs);
-    [[nodiscard]] std::uint64_t bytes() const;
+    [[nodiscard]] std::uint64_t bytes() const { return faces.bytes() + states.bytes(); }
 
     std::uint32_t run_count;
-    vk::BufferOf<gpu::CachedFace> faces;          // [kFaceRun * run_count]
-    vk::BufferOf<gpu::FaceState> states;          // likewise
-    vk::BufferOf<gpu::RadianceCounters> counters; // [1]
+    vk::BufferOf<gpu::CachedFace> faces; // [kFaceRun * run_count]
+    vk::BufferOf<gpu::FaceState> states; // likewise
 };
 
 /// What frames use in turns.
@@ -48,21 +47,24 @@ struct RadianceLists
                   std::uint32_t picture_height);
     [[nodiscard]] std::uint64_t bytes() const;
 
+    /// Faces and bricks that a frame may put into the table.
+    [[nodiscard]] std::uint64_t insertsMax() const { return wanted[0].count() + bricks.count(); }
+
     std::uint32_t faces;
     std::uint32_t width;
     std::uint32_t height;
     std::array<vk::BufferOf<gpu::uint>, 2>
         wanted; // slots of even and odd frames: for all rays and pixels that list one
     PathBatch batch;
-    vk::BufferOf<gpu::uint> unlit;    // [faces] paths that have hit a face without light
     vk::BufferOf<gpu::uint> bricks;   // [kBrickLevels][faces] slots of those that are listed
-    vk::BufferOf<gpu::BrickSum> sums; // [kBrickLevels][faces] of them; 0 between frames
+    vk::BufferOf<gpu::BrickSum> sums; // [2][faces] of a level, and of the next one; 0 between frames
 };
 
 /// What a frame that samples faces is made of.
 struct RadianceFrame
 {
     RadianceTable& table;
+    vk::BufferOf<gpu::RadianceCounters>& counters; // [1]
     RadianceLists& lists;
     const DeviceTree& tree;
     const DeviceEnvironment& environment; // prepared, like lights
@@ -84,10 +86,5 @@ struct RadianceFrame
 
 /// Records the passes of a frame (shaders/radiance/radiance.h). Throws Error{Memory}.
 void sampleFaces(vk::FrameGraph& graph, const RadianceFrame& frame);
-
-/// Records the passes that fill a table with those faces of another one that a ray has hit in the last age_max frames
-/// before `frame`. They empty the lists, which named slots of the other table.
-void evictFaces(vk::FrameGraph& graph, const RadianceTable& from, RadianceTable& to, RadianceLists& lists,
-                std::uint32_t frame, std::uint32_t age_max);
 
 } // namespace zvo

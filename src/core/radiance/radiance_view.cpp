@@ -19,11 +19,6 @@ struct RadianceView::Work
     const TraceBuffers& seen;
     CacheView kind;
     bool begins; // sets the sums
-
-    [[nodiscard]] std::uint32_t runCount() const
-    {
-        return static_cast<std::uint32_t>(cache.faces().count() / gpu::kFaceRun);
-    }
 };
 
 RadianceView::RadianceView(vk::Device& device, std::uint32_t width, std::uint32_t height)
@@ -72,7 +67,7 @@ void RadianceView::addCached(vk::FrameGraph& graph, const Work& work)
                                    .camera = work.camera.rays,
                                    .width = m_width,
                                    .height = m_height,
-                                   .run_count = work.runCount()});
+                                   .run_count = work.cache.runCount()});
 }
 
 // Records the pass that adds what pixels reflect of the light through a cone.
@@ -92,7 +87,7 @@ void RadianceView::addCone(vk::FrameGraph& graph, const Work& work, std::uint32_
     params.camera = work.camera.rays;
     params.width = m_width;
     params.height = m_height;
-    params.run_count = work.runCount();
+    params.run_count = work.cache.runCount();
     params.cone = cone;
     params.frame = work.cache.frameCount();
     params.seed = seed;

@@ -184,9 +184,19 @@ TEST(RadianceBytes, AreTheSameInEveryRun)
     {
         FrameRenderer tracer(device().device());
         tracer.resize(48, 40);
-        // Tables of other sizes have their faces elsewhere.
-        tracer.cache().reserveFaces(run == 0 ? 20000 : 45678);
-        runFrames(tracer, hall.tree, hall.dark, hall.view, 12, {.faces = 500});
+        // Tables of other sizes have their faces elsewhere. One grows.
+        tracer.cache().setRoom(run == 0 ? 0 : 45678, UINT64_MAX);
+        runFrames(tracer, hall.tree, hall.dark, hall.view, 1, {.faces = 500});
+        const std::uint64_t room = tracer.cache().room();
+        runFrames(tracer, hall.tree, hall.dark, hall.view, 23, {.faces = 500});
+        EXPECT_EQ(tracer.cache().room() > room, run == 0) << room << " became " << tracer.cache().room();
+        const RadianceCounts counts = tracer.cache().counts();
+        EXPECT_EQ(counts.refused, 0U);
+        EXPECT_GE(tracer.cache().room(), counts.faces + counts.bricks);
+        if (run == 0)
+        {
+            EXPECT_LT(tracer.cache().room(), 4 * (counts.faces + counts.bricks)) << "memory is for what rays hit";
+        }
         runs.push_back(levelsOf(tracer.cache()));
     }
     ASSERT_GT(runs[0][0].size(), 500U);
@@ -396,12 +406,35 @@ TEST(RadianceTable, CountsFacesWithoutAPlace)
     Hall hall;
     FrameRenderer tracer(device().device());
     tracer.resize(64, 64);
-    tracer.cache().reserveFaces(100);
+    tracer.cache().setRoom(0, 100);
     runFrames(tracer, hall.tree, hall.dark, hall.view, 8, {});
     const gpu::RadianceCounters counters = device().download(tracer.cache().counters()).front();
     EXPECT_GT(counters.refused, 0U);
     EXPECT_EQ(counters.face_count, facesOf(tracer.cache()).size());
     EXPECT_LE(counters.face_count, 152U);
+    EXPECT_TRUE(tracer.cache().isCrowded());
+}
+
+// Where the table must not grow, faces that no ray hits any more make room for those that the camera sees.
+TEST(RadianceTable, KeepsWhatIsSeenWhereThereIsLittleRoom)
+{
+    Hall hall;
+    FrameRenderer tracer(device().device());
+    tracer.resize(64, 64);
+    tracer.cache().setRoom(0, 4000);
+    const RadianceOptions few = {.faces = 64}; // most faces are hit by the camera's rays alone
+    runFrames(tracer, hall.tree, hall.dark, hall.view, 100, few);
+    const auto before = facesOf(tracer.cache());
+    const ViewCamera near_wall = ViewCamera::lookAt({20.0, 10.0, 20.0}, {31.0, 8.0, 12.0}, 0.9);
+    runFrames(tracer, hall.tree, hall.dark, near_wall, 400, few);
+    const std::uint64_t refused = tracer.cache().counts().refused;
+    runFrames(tracer, hall.tree, hall.dark, near_wall, 100, few);
+    const auto after = facesOf(tracer.cache());
+    const auto left = std::ranges::count_if(before, [&](const auto& face) { return !after.contains(face.first); });
+    EXPECT_TRUE(tracer.cache().isCrowded());
+    EXPECT_GT(left, 500);
+    EXPECT_EQ(tracer.cache().counts().faces, after.size());
+    EXPECT_EQ(tracer.cache().counts().refused, refused);
 }
 
 } // namespace
