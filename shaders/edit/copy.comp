@@ -22,7 +22,7 @@ void main()
     EditCell cell = params.cells.data[params.inner_count + number];
     Node leaf = Node(0u, 0u, 0u, 0u);
     if (cell.base != kNoEditNode)
-        leaf = params.nodes.data[cell.base];
+        leaf = loadNodeOf(params.nodes, uvec2_ConstPtr(0ul), cell.base);
     uvec3 at = 4u * cellOf(params.box, params.box.level_count - 1u, number) + cellNumbered(bit);
     uint word = stampCell(number, bit);
     bool exists = hasChild(leaf, bit) && isInDab(params.box, at);

@@ -87,7 +87,7 @@ struct EditBox
 /// A node of the base tree under the brush, or the empty place of a node that does not exist.
 struct EditCell
 {
-    uint base;    // node of the base tree, or kNoEditNode
+    uint base;    // reference of the node of the base tree, or kNoEditNode
     uint voxels;  // rank of the static octree's node at the same position; of a leaf, what its bases lack
     uint rank;    // rank of that node among the nodes; of an octree, base
     uint mask_lo; // after the dab

@@ -99,7 +99,9 @@ void main()
     RankedNode at = baseNode(level, position);
     Node base = Node(0u, 0u, 0u, 0u);
     if (at.node != kNoEditNode)
-        base = params.nodes.data[at.node];
+        base = loadNodeOf(params.nodes, uvec2_ConstPtr(0ul), at.node);
+    if (kEntriesPerWord == 0u && at.node != kNoEditNode && isLeafWord(at.node))
+        at.voxels = firstVoxel(params.nodes, uvec2_ConstPtr(uint64_t(params.before)), at.node);
     EditCell cell = EditCell(at.node, at.voxels, at.rank, base.mask_lo, base.mask_hi, 0u, 0u, 0u);
     if (level + 1u == params.box.level_count)
         dab(base, position, number, cell);

@@ -28,7 +28,8 @@ Node unchangedChild(EditCell parent, uint bit, bool is_leaf, uint index)
                                    params.first_short_entry);
     RankedNode at = RankedNode(parent.base, parent.voxels, parent.rank);
     descendBase(source, BeforeChild_ConstPtr(uint64_t(params.ranks)), bit, is_leaf, kRanks, at);
-    Node child = params.nodes.data[at.node];
+    uint64_t leaf_groups = kEntriesPerWord == 0u ? uint64_t(params.before) : 0ul;
+    Node child = loadNodeOf(source.pool, uvec2_ConstPtr(leaf_groups), at.node);
     if (is_leaf)
     {
         child.base_lo += at.voxels;
@@ -38,7 +39,8 @@ Node unchangedChild(EditCell parent, uint bit, bool is_leaf, uint index)
         params.ranks.data[index] = BeforeChild(is_leaf ? 0u : at.voxels, at.rank);
     if (kAttributes)
         params.node_attributes.data[index + params.attribute_offset] =
-            params.node_attributes.data[at.node >= params.static_root ? at.node + params.attribute_offset : at.rank];
+            params.node_attributes.data[isBehind(params.static_root, at.node) ? at.node + params.attribute_offset
+                                                                              : at.rank];
     return child;
 }
 

@@ -37,7 +37,7 @@ EditVoxel editVoxel()
         voxel.cell = 4u * cellOf(params.box, params.box.level_count - 1u, number) + cellNumbered(bit);
         if (cell.base != kNoEditNode)
         {
-            Node base = params.nodes.data[cell.base];
+            Node base = loadNodeOf(params.nodes, uvec2_ConstPtr(0ul), cell.base);
             voxel.base = hasChild(base, bit) ? childIndex(base, bit) + cell.voxels : kNoEditNode;
         }
     }

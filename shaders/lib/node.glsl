@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Nodes and their children (shared/octree.h), which lists may name (shared/svdag.h).
+// Nodes and their children (shared/octree.h), which lists may name (shared/svdag.h), by their references.
 #ifndef ZVO_SHADERS_LIB_NODE_GLSL
 #define ZVO_SHADERS_LIB_NODE_GLSL
 
@@ -25,25 +25,94 @@ uvec4 listEntries(uint64_t_ConstPtr pool, uvec4 indices, uint per_word)
                  listEntry(pool, indices.z, per_word), listEntry(pool, indices.w, per_word));
 }
 
+bool isLeafWord(uint reference)
+{
+    return (reference & kLeafWords) != 0u;
+}
+
+// The number of a word, of a reference to a leaf word.
+uint leafWord(uint reference)
+{
+    return reference & ~kLeafWords;
+}
+
+// Voxels before a pair of words, by the leaf group that they are in. pair: half the number of the words.
+uint voxelsBeforePair(uvec2 group, uint pair)
+{
+    uint low = bitfieldExtract(group.y, 0, int(kGroupShift2));
+    uint middle = bitfieldExtract(group.y, int(kGroupShift2), int(kGroupShift3 - kGroupShift2));
+    uint upper = (pair & 1u) != 0u ? group.y >> kGroupShift3 : middle;
+    return group.x + ((pair & 2u) != 0u ? upper : (pair & 1u) != 0u ? low : 0u);
+}
+
+// The masks of a node.
+uvec2 nodeMask(Node_ConstPtr pool, uint reference)
+{
+    if (isLeafWord(reference))
+        return unpackUint2x32(uint64_t_ConstPtr(uint64_t(pool)).data[leafWord(reference)]);
+    return uvec2(pool.data[reference].mask_lo, pool.data[reference].mask_hi);
+}
+
+// The first voxel of a leaf word of an octree.
+uint firstVoxel(Node_ConstPtr pool, uvec2_ConstPtr leaf_groups, uint reference)
+{
+    uint word = leafWord(reference);
+    uint voxels = voxelsBeforePair(leaf_groups.data[1u + word / kLeafGroup], word >> 1);
+    uvec2 mask = unpackUint2x32(uint64_t_ConstPtr(uint64_t(pool)).data[word & ~1u]); // of the pair's first leaf
+    return voxels + ((word & 1u) != 0u ? bitCount(mask.x) + bitCount(mask.y) : 0u);
+}
+
+// A node, whose bases are those of a leaf that is a node, in place of a leaf word: of a DAG, that is of its own.
+// leaf_groups: of an octree, or null: bases are those in a DAG then.
+Node loadNodeOf(Node_ConstPtr pool, uvec2_ConstPtr leaf_groups, uint reference)
+{
+    if (!isLeafWord(reference))
+        return pool.data[reference];
+    uvec2 mask = nodeMask(pool, reference);
+    uint first = 0u;
+    if (uint64_t(leaf_groups) != 0ul)
+        first = firstVoxel(pool, leaf_groups, reference);
+    return Node(mask.x, first, mask.y, first + bitCount(mask.x));
+}
+
+// The index of a node's attributes in an octree. leaf_groups: null if leaves are nodes, which have their numbers.
+uint nodeIndexOf(uvec2_ConstPtr leaf_groups, uint reference)
+{
+    uint index = reference;
+    if (uint64_t(leaf_groups) != 0ul)
+    {
+        uvec2 first = leaf_groups.data[0];
+        index = isLeafWord(reference) ? leafWord(reference) - first.x
+                                      : (reference >= first.x ? reference + first.y : reference);
+    }
+    return index;
+}
+
+// Whether a node is the static root of a tree with room for overlays, or stands behind it.
+bool isBehind(uint static_root, uint reference)
+{
+    return !isLeafWord(reference) && reference >= static_root;
+}
+
 bool hasChild(Node node, uint cell)
 {
     return (((cell < 32u ? node.mask_lo : node.mask_hi) >> (cell & 31u)) & 1u) != 0u;
 }
 
-// The index of the child in a cell or, in a leaf, of the voxel's attribute; for a missing one, the index that it would
-// have. For a list, kChildList and the index of the entry that names the child.
+// The reference of the child in a cell or, in a leaf, the index of the voxel's attribute; for a missing one, what it
+// would be. For a list, kChildList, kLeafWords if it names leaf words, and the index of the entry that names the child.
 uint childIndex(Node node, uint cell)
 {
     uint below = (1u << (cell & 31u)) - 1u;
     return cell < 32u ? node.base_lo + bitCount(node.mask_lo & below) : node.base_hi + bitCount(node.mask_hi & below);
 }
 
-// The child that childIndex() found, which must exist, of a node in a pool that may have lists.
+// The reference of the child that childIndex() found, which must exist, of a node in a pool that may have lists.
 uint listedChild(Node_ConstPtr pool, uint index, uint per_word)
 {
     uint child = index;
     if ((index & kChildList) != 0u)
-        child = listEntry(uint64_t_ConstPtr(uint64_t(pool)), index & ~kChildList, per_word);
+        child = listEntry(uint64_t_ConstPtr(uint64_t(pool)), index & ~kListFlags, per_word) | (index & kLeafWords);
     return child;
 }
 

@@ -13,7 +13,7 @@
 // A node of the octree by its path.
 struct RankedNode
 {
-    uint node;   // of the DAG
+    uint node;   // reference
     uint voxels; // before those below it
     uint rank;   // depth first
 };
@@ -22,7 +22,7 @@ struct RankedNode
 uint entryIndex(RankSource source, uint node, uint cell)
 {
     uvec2 half_node = unpackUint2x32(uint64_t_ConstPtr(uint64_t(source.pool)).data[2u * node + (cell >> 5)]);
-    return (half_node.y & ~kChildList) + bitCount(half_node.x & ((1u << (cell & 31u)) - 1u));
+    return (half_node.y & ~kListFlags) + bitCount(half_node.x & ((1u << (cell & 31u)) - 1u));
 }
 
 // From a node above the parents of leaves to the child in a cell.
@@ -79,8 +79,8 @@ void descendToLeaf(RankSource source, uint cell, bool with_rank, inout RankedNod
 }
 
 // From a node of a base tree, which may have been edited (edit/edit.h), to the child in a cell, which must exist.
-// ranked: ranks are kept, as for a DAG with attributes. Otherwise, in an octree, a node's rank is its number, and
-// voxels stay 0.
+// ranked: ranks are kept, as for a DAG with attributes. Otherwise, in an octree, a node's rank is the index of its
+// attributes, and voxels stay 0.
 void descendBase(RankSource source, BeforeChild_ConstPtr overlay_ranks, uint cell, bool to_leaf, bool ranked,
                  inout RankedNode at)
 {
@@ -88,7 +88,8 @@ void descendBase(RankSource source, BeforeChild_ConstPtr overlay_ranks, uint cel
     if (!ranked)
     {
         uint child = kEntriesPerWord != 0u ? listedChild(source.pool, index, kEntriesPerWord) : index;
-        at = RankedNode(child, 0u, child);
+        uint64_t leaf_groups = kEntriesPerWord == 0u ? uint64_t(source.before) : 0ul;
+        at = RankedNode(child, 0u, nodeIndexOf(uvec2_ConstPtr(leaf_groups), child));
         return;
     }
     if (descendInOverlay(source, overlay_ranks, cell, at))

@@ -19,7 +19,8 @@
 // into the cell, or advances past it (past its 2x2x2 octant, or the half node, if that is empty) to the lowest node
 // around both cells.
 //
-// Rays start in the node at g_halves (lib/half_node.glsl). Needs what TRAVERSE_CONSTANTS (trace/trace.h) declares:
+// Rays start in the node at g_halves; indices of hits in an octree need g_leaf_groups (lib/half_node.glsl). Needs what
+// TRAVERSE_CONSTANTS (trace/trace.h) declares:
 //   kNodeLevels        of the octree
 //   kDetail            whether rays stop at small nodes
 //   kIterationsMax
@@ -36,6 +37,7 @@
 #define ZVO_SHADERS_LIB_TRAVERSE_GLSL
 
 #include "lib/half_node.glsl"
+#include "lib/morton.glsl"
 #include "lib/ray.glsl"
 #include "shared/svdag.h"
 #include "shared/trace.h"
@@ -130,6 +132,39 @@ void beginBelowRoot(vec3 origin, vec3 inverse, uint mirror, uvec3 limits, inout 
 }
 #endif
 
+// The attribute index of the voxel in a cell of a leaf; of a leaf word of a DAG, the voxel's number in the leaf.
+uint voxelIndex(uint leaf, uint cell)
+{
+    bool is_word = isLeafWord(leaf);
+    uint pair = is_word ? leafWord(leaf) >> 1 : leaf;
+    uvec4 words = loadPair(pair);
+    bool is_second = is_word && (leaf & 1u) != 0u;
+    bool is_upper = cell >= 32u;
+    uint below = (1u << (cell & 31u)) - 1u;
+    uint low = is_second ? words.z : words.x;
+    uint high = is_second ? words.w : is_word ? words.y : words.z;
+    uint index = bitCount((is_upper ? high : low) & below);
+    if (!is_word)
+        return index + (is_upper ? words.w : words.y);
+    index += is_upper ? bitCount(low) : 0u;
+    if (kEntriesPerWord == 0u)
+        index += voxelsBeforePair(loadLeafGroup(1u + pair / (kLeafGroup / 2u)), pair) +
+                 (is_second ? bitCount(words.x) + bitCount(words.y) : 0u);
+    return index;
+}
+
+// The attribute index of a node of an octree.
+uint nodeIndex(uint node)
+{
+    uint index = node;
+    if (kEntriesPerWord == 0u && uint64_t(g_leaf_groups) != 0ul)
+    {
+        uvec2 first = loadLeafGroup(0u);
+        index = isLeafWord(node) ? leafWord(node) - first.x : node >= first.x ? node + first.y : node;
+    }
+    return index;
+}
+
 // The state after the event (t, axis); axis 2 for the start, too.
 uvec3 limitsAfter(float t, uint axis)
 {
@@ -193,20 +228,23 @@ Traversal traverse(vec3 ray_origin, vec3 ray_inverse, float t_min, float t_max, 
                  (upper.y ? 16u : 0u) | (upper.z ? 32u : 0u);
         c ^= mirror;
 
-        uvec2 half_node = loadHalf(2u * node + (c >> 5));
-        uint up_to_cell = half_node.x << (~c & 31u); // the cell's bit on top
-        uint child = half_node.y + bitCount(up_to_cell << 1);
-        bool octant_empty = ((half_node.x >> (c & 24u)) & 255u) == 0u;
+        bool is_word = isLeafWord(node);
+        uvec2 half_node = loadHalf(is_word ? leafWord(node) : 2u * node + (c >> 5));
+        uint mask = is_word && c >= 32u ? half_node.y : half_node.x;
+        uint up_to_cell = mask << (~c & 31u); // the cell's bit on top
+        uint child = half_node.y + bitCount(up_to_cell << 1); // of no use in a leaf
+        bool octant_empty = ((mask >> (c & 24u)) & 255u) == 0u;
 
         // The planes at which the ray leaves the cell, its octant if that is empty, or the whole half node.
         bvec3 far = bvec3(odd.x || octant_empty, odd.y || octant_empty, odd.z || octant_empty);
-        bvec2 farther = bvec2(half_node.x == 0u && !upper.x, half_node.x == 0u && !upper.y);
+        bvec2 farther = bvec2(mask == 0u && !upper.x, mask == 0u && !upper.y);
         uvec3 leave = quarter + mix(uvec3(0u), uvec3(size), far);
         leave.xy += mix(uvec2(0u), uvec2(size << 1), farther);
         vec3 t_leave = planeTimes(leave, origin, inverse);
         // From far away, planes of one axis can be crossed at the same time; a voxel between them is not visited.
         bool visited = all(greaterThanEqual(t_leave, crossed));
-        bool ends = shift == kLeafShift;
+        bool in_leaf = shift == kLeafShift;
+        bool ends = in_leaf;
         if (kDetail)
             ends = ends || edgeOf(size) <= max(detail.x * crossed.x, detail.y);
         bool occupied = int(up_to_cell) < 0 && (!ends || visited);
@@ -228,13 +266,13 @@ Traversal traverse(vec3 ray_origin, vec3 ray_inverse, float t_min, float t_max, 
         if (kEntriesPerWord != 0u)
         {
             // Every ray loads it, needed or not: on lavapipe, a load that some lanes skip costs more.
-            bool listed = occupied && int(child) < 0;
-            uint named = loadEntry(listed ? child & ~kChildList : 0u, kEntriesPerWord);
+            bool listed = occupied && !in_leaf && int(child) < 0;
+            uint named = loadEntry(listed ? child & ~kListFlags : 0u, kEntriesPerWord);
 #ifdef TRAVERSE_ENTRIES
             // No ray leaves a leaf for another one without a list.
-            leaf_entry = listed ? child & ~kChildList : leaf_entry;
+            leaf_entry = listed ? child & ~kListFlags : leaf_entry;
 #endif
-            child = listed ? named : child;
+            child = listed ? named | (child & kLeafWords) : child;
         }
 
         // Down, or on.
@@ -243,7 +281,7 @@ Traversal traverse(vec3 ray_origin, vec3 ray_inverse, float t_min, float t_max, 
         limits.y = occupied ? limits.y : x_first ? leave_bits : leave_bits + 1u;
         limits.z = occupied ? limits.z : z_first ? leave_bits + 1u : leave_bits;
         corner = occupied ? mix(cell, quarter, odd) : around;
-        node = occupied ? child : around_node;
+        node = !occupied ? around_node : in_leaf ? node : child;
         shift = occupied ? shift - 2u : around_shift;
         go = shift - kLeafShift <= kRootShift - kLeafShift && limits.x <= limit_max && iterations < iterations_max;
         if (kDetail)
@@ -255,10 +293,13 @@ Traversal traverse(vec3 ray_origin, vec3 ray_inverse, float t_min, float t_max, 
     result.unfinished = !result.hit && shift - kLeafShift <= kRootShift - kLeafShift && limits.x <= limit_max;
     result.iterations = iterations;
     result.t = uintBitsToFloat(limits.x - 1u);
-    result.index = node;
     result.face = limits.y < limits.x ? 0u : limits.z < limits.x ? 1u : result.t == t_min ? kFaceInside : 2u;
     result.level = (kRootShift - shift) >> 1;
     result.cell = ((corner - one) >> (shift + 2u)) ^ mix(uvec3(0u), uvec3((1u << (2u * result.level)) - 1u), mirrored);
+    result.index = 0u;
+    if (result.hit)
+        result.index =
+            kDetail && result.level != kNodeLevels ? nodeIndex(node) : voxelIndex(node, cellInBlock(result.cell));
 #ifdef TRAVERSE_ENTRIES
     result.leaf_entry = leaf_entry;
 #endif

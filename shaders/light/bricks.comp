@@ -27,15 +27,16 @@ bool isOccupied(uvec3 voxel)
 {
     bool go = all(lessThan(voxel, uvec3(1u << (2u * kNodeLevels))));
     bool occupied = go;
-    uint node_number = 0u;
+    Node_ConstPtr pool = rankSourceOfTree().pool;
+    uint reference = 0u;
     for (uint level = 0u; go; ++level)
     {
         uint cell = cellInBlock(voxel >> (2u * (kNodeLevels - 1u - level)));
-        Node node = loadNode(node_number);
-        occupied = hasChild(node, cell);
+        uvec2 mask = nodeMask(pool, reference);
+        occupied = (((cell < 32u ? mask.x : mask.y) >> (cell & 31u)) & 1u) != 0u;
         go = occupied && level + 1u < kNodeLevels;
         if (go)
-            node_number = listedChild(rankSourceOfTree().pool, childIndex(node, cell), kEntriesPerWord);
+            reference = listedChild(pool, childIndex(pool.data[reference], cell), kEntriesPerWord);
     }
     return occupied;
 }

@@ -18,7 +18,7 @@ shared uint s_masks[2];
 // By the flags of the child's attribute, the OR of those of its voxels.
 bool hasEmissiveFlag(RankedNode child, bool direct)
 {
-    uint index = kRanked ? (direct ? child.node + params.tree.data[0].attribute_offset : child.rank) : child.node;
+    uint index = kRanked && direct ? child.node + params.tree.data[0].attribute_offset : child.rank;
     return ((params.tree.data[0].node_attributes.data[index].color >> 24) & kAttributeEmissive) != 0u;
 }
 

@@ -11,9 +11,10 @@
 const bool kRanked = kEntriesPerWord != 0u; // voxels and nodes of a DAG have attributes by ranks
 
 // The voxel tree.
-Node loadNode(uint number)
+Node loadNode(uint reference)
 {
-    return params.tree.data[0].source.pool.data[number];
+    uint64_t leaf_groups = kEntriesPerWord == 0u ? uint64_t(params.tree.data[0].source.before) : 0ul;
+    return loadNodeOf(Node_ConstPtr(uint64_t(params.tree.data[0].source.pool)), uvec2_ConstPtr(leaf_groups), reference);
 }
 
 RankSource rankSourceOfTree()

@@ -9,6 +9,7 @@ layout(local_size_x = kNodesGroup) in;
 
 #include "lib/bound.glsl"
 #include "lib/dispatch.glsl"
+#include "lib/node.glsl"
 
 #define AVERAGE_CHILDREN Attribute_ConstPtr
 #define CHILDREN_BINDING 0
@@ -21,7 +22,10 @@ void main()
     bool is_node = index < params.node_count;
     Node node = Node(0u, 0u, 0u, 0u);
     if (is_node)
-        node = params.nodes.data[params.first_node + index];
+    {
+        node = loadNodeOf(params.nodes, params.leaf_groups, params.first_node + index + params.reference);
+        node.base_lo -= params.child_reference;
+    }
     Attribute mean = averageChildren(params.scene, node, params.children);
     if (is_node && laneOfNode() == 0u)
         params.averages.data[params.first_node + index] = mean;

@@ -112,11 +112,26 @@ struct AverageParams // push constants of octree/average
     GPU_CONST_PTR(Node) nodes;
     GPU_CONST_PTR(Attribute) children; // voxel attributes for leaves, else the node attributes
     GPU_PTR(Attribute) averages;       // [nodes of the octree]
+    GPU_CONST_PTR(uvec2) leaf_groups;  // of leaf words
     uint first_node;
     uint node_count;
+    uint reference;       // from the number of a node to its reference
+    uint child_reference; // from that of a child
 };
 #define OCTREE_AVERAGE_CONSTANTS(CONSTANT) CONSTANT(0, uint, lanes, kLanes, 1u)
 GPU_KERNEL(octree, average, Average, AverageParams, OCTREE_AVERAGE_CONSTANTS)
+
+struct LeafWordsParams // push constants of octree/leaf_words: a thread a node
+{
+    GPU_CONST_PTR(Node) from;
+    GPU_PTR(Node) to;           // [ceil((2 * inner_count + leaf_count) / 2)]
+    GPU_PTR(uvec2) leaf_groups; // [1 + ceil((2 * inner_count + leaf_count) / kLeafGroup)]
+    uint inner_count;
+    uint leaf_count;
+    uint first_parent;     // of leaves
+    uint attribute_offset; // x of the first leaf group says which
+};
+GPU_KERNEL(octree, leaf_words, LeafWords, LeafWordsParams, GPU_NO_CONSTANTS)
 
 struct AverageTopParams // push constants of octree/average_top: one workgroup
 {
@@ -124,8 +139,11 @@ struct AverageTopParams // push constants of octree/average_top: one workgroup
     GPU_CONST_PTR(Node) nodes;
     GPU_PTR(Attribute) averages;              // [nodes of the octree]
     GPU_CONST_PTR(Attribute) lowest_children; // attributes of the children of the lowest of these levels
+    GPU_CONST_PTR(uvec2) leaf_groups;         // of leaf words
     LevelRange levels[kRootLevels];           // the root, its children
     uint level_count;                         // 1 where the root's children are voxels
+    uint leaf_level;                          // of the whole octree
+    uint leaf_reference;                      // from the number of a leaf to its reference
 };
 #define OCTREE_AVERAGE_TOP_CONSTANTS(CONSTANT)                                                                         \
     CONSTANT(0, uint, lanes, kLanes, 1u)                                                                               \

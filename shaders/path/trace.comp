@@ -153,6 +153,7 @@ void main()
     barrier();
     uint number = pixelTaken(gl_LocalInvocationIndex);
     g_halves = uint64_t_ConstPtr(uint64_t(params.nodes));
+    g_leaf_groups = uint64_t_ConstPtr(uint64_t(params.tree.data[0].source.before));
 
     Path path;
     Shadow shadow;

@@ -52,23 +52,24 @@ vec3 coverageOf(uvec2 mask)
 vec3 coverageOfNode(TreeTable_ConstPtr tree, uvec3 cell, uint level)
 {
     Node_ConstPtr pool = tree.data[0].source.pool;
-    Node node = pool.data[0];
+    uint reference = 0u;
     for (uint l = 1u; l <= level; ++l)
     {
-        uint index = childIndex(node, cellInBlock(cell >> (2u * (level - l))));
-        node = pool.data[listedChild(pool, index, kEntriesPerWord)];
+        uint index = childIndex(pool.data[reference], cellInBlock(cell >> (2u * (level - l))));
+        reference = listedChild(pool, index, kEntriesPerWord);
     }
-    uvec2 mask = uvec2(node.mask_lo, node.mask_hi);
+    uvec2 mask = nodeMask(pool, reference);
     vec3 blocks = coverageOf(mask);
     if (level + 1u >= kNodeLevels)
         return blocks;
+    Node node = pool.data[reference];
     vec3 covered = vec3(0.0);
     while (mask != uvec2(0u))
     {
         uint child = mask.x != 0u ? uint(findLSB(mask.x)) : 32u + uint(findLSB(mask.y));
         mask = mask.x != 0u ? uvec2(mask.x & (mask.x - 1u), mask.y) : uvec2(0u, mask.y & (mask.y - 1u));
-        Node below = pool.data[listedChild(pool, childIndex(node, child), kEntriesPerWord)];
-        covered += coverageOf(uvec2(below.mask_lo, below.mask_hi)) / 16.0;
+        uint below = listedChild(pool, childIndex(node, child), kEntriesPerWord);
+        covered += coverageOf(nodeMask(pool, below)) / 16.0;
     }
     return min(blocks, covered); // children behind each other count twice where they do not fill their columns
 }

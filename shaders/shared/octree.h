@@ -13,6 +13,21 @@
 //
 // Nodes stand breadth first, each level in Morton order; node 0 is the root. With L = nodeLevels(depth) levels the
 // root covers 4^L voxels per edge: for an odd depth the grid is the lower octant of that cube.
+//
+// The leaves of a tree that is made, and has several levels, are *leaf words*: their masks alone. They stand behind the
+// inner nodes, two in the room of a node. Bases with the flag kLeafWords count words of 64 bits, from node 0 on:
+//
+//     byte 0        4        8
+//          | mask_lo| mask_hi|
+//
+//   node with leaf words: child c of a half is word  (base & ~kLeafWords) + popcount(mask & bits below c)
+//
+// What such a sum gives is the *reference* of a child: the number of a node, or kLeafWords | the number of a word. The
+// i-th leaf of a tree with n inner nodes is node n + i and word 2 n + i. Leaf groups tell its first voxel:
+//
+//     element 0                      x: n; y: from the number of a node behind the leaf words to that of its attributes
+//     1 + g, of words 8 g to 8 g + 7 x: voxels before those words; y: voxels from there to word 8 g + 2: 8 bits | 4: 9
+//                                    | 6: 9, where words of inner nodes have none
 #ifndef ZVO_SHADERS_SHARED_OCTREE_H
 #define ZVO_SHADERS_SHARED_OCTREE_H
 
@@ -24,7 +39,7 @@ GPU_NAMESPACE_BEGIN
 struct Node
 {
     uint mask_lo; // cells with z < 2
-    uint base_lo; // first child node, or first voxel attribute in a leaf
+    uint base_lo; // reference of the first child, or first voxel attribute in a leaf
     uint mask_hi; // cells with z >= 2
     uint base_hi;
 };
@@ -48,6 +63,11 @@ const uint kAttributeEmissive = 1u; // flag: the voxel has an entry in the emiss
 const uint kVoxelsPerEmissionWord = 32u;
 
 const uint kNodeLevelsMax = 9u; // two octree levels each: depth 18
+
+const uint kLeafWords = 0x40000000u; // flag in Node::base_lo and base_hi, and in references
+const uint kLeafGroup = 8u;          // words of a leaf group
+const uint kGroupShift2 = 8u;        // in the y of a leaf group: voxels before its fifth word, and its seventh
+const uint kGroupShift3 = 17u;
 
 GPU_NAMESPACE_END
 

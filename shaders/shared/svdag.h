@@ -4,16 +4,18 @@
 //
 // Nodes and lists share one buffer, the pool:
 //
-//     nodes, level by level from the root on | lists, those of the root first | zeros up to a whole node
+//     inner nodes, level by level from the root on | leaf words | lists, those of the root first | zeros up to a node
 //
-// Lists are entries, numbers of nodes, of which a word of 64 bits holds as many as the largest number allows: 4 of 16
-// bits, 3 of 21 or 2 of 32, the first one in the lowest bits. Entries have *indices*, counted from the pool's first
-// word on as if all of it were entries: index i is in word i / entries per word, and lists start with a word.
+// Lists are entries, numbers of nodes or of leaf words, of which a word of 64 bits holds as many as the largest number
+// allows: 4 of 16 bits, 3 of 21 or 2 of 32, the first one in the lowest bits. Entries have *indices*, counted from the
+// pool's first word on as if all of it were entries: index i is in word i / entries per word, and lists start with a
+// word.
 //
 // A half of a node with kChildList in its base has a list: child c of it is the entry with the index
-// (base & ~kChildList) + popcount(mask & bits below c). Without, its children stand together, as an octree's do. Inner
-// nodes of a DAG have one list for both halves: base_hi = base_lo + popcount(mask_lo). In leaves base_lo is 0 and
-// base_hi popcount(mask_lo): what would be a child is the voxel's number in the leaf.
+// (base & ~kListFlags) + popcount(mask & bits below c), which names a leaf word if the base has kLeafWords. Without a
+// list its children stand together, as an octree's do. Inner nodes of a DAG have one list for both halves:
+// base_hi = base_lo + popcount(mask_lo). A leaf that is a node has base_lo 0 and base_hi popcount(mask_lo): what would
+// be a child is the voxel's number in the leaf.
 //
 // Nodes of a level stand in the order in which they first occur in the octree; lists in the order of their nodes.
 //
@@ -29,7 +31,8 @@
 GPU_NAMESPACE_BEGIN
 
 const uint kChildList = 0x80000000u; // flag in Node::base_lo and base_hi
-const uint kListWordBits = 64u;      // of a word of entries
+const uint kListFlags = kChildList | kLeafWords;
+const uint kListWordBits = 64u; // of a word of entries
 
 /// Of a long entry: how many voxels and nodes the octree has below the node's children before this one. For the entries
 /// of parents of leaves there are only 16 bits each, two to a word, the lower half first: voxels before the leaf.
@@ -44,7 +47,7 @@ GPU_BUFFER(BeforeChild, 8);
 struct RankSource
 {
     GPU_CONST_PTR(Node) pool;
-    GPU_CONST_PTR(BeforeChild) before;      // by indices of entries: those of the long ones
+    GPU_CONST_PTR(BeforeChild) before;      // by indices of entries: those of the long ones; of an octree, leaf groups
     GPU_CONST_PTR(uint) voxels_before_leaf; // two entries a word
     uint first_short_entry;                 // of the first entry that is not long
 };

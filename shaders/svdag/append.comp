@@ -16,7 +16,8 @@ void main()
     if (index >= params.node_count)
         return;
     Node node = params.from.data[params.first_from + index];
-    uint from = node.base_lo & ~kChildList;
+    uint flags = node.base_lo & kListFlags;
+    uint from = node.base_lo & ~kListFlags;
     uint to = from + params.entry_shift;
     uint low = bitCount(node.mask_lo);
     uint count = low + bitCount(node.mask_hi);
@@ -26,5 +27,5 @@ void main()
         params.to_entries.data[to + i] = child + params.child_shift;
     }
     params.to.data[params.first_to + index] =
-        Node(node.mask_lo, kChildList | to, node.mask_hi, kChildList | (to + low));
+        Node(node.mask_lo, flags | to, node.mask_hi, flags | (to + low));
 }

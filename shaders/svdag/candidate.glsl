@@ -36,16 +36,17 @@ uvec4 childIndicesAfter(Node node, uvec4 before)
     return mix(node.base_hi + (before - low), node.base_lo + before, lessThan(before, low));
 }
 
-// The children of an inner node with so many before them in the node. No load waits for a condition: what is loaded for
-// a node without a list is not used.
+// The references of the children of an inner node with so many before them in the node. No load waits for a condition:
+// what is loaded for a node without a list is not used.
 uvec4 childrenAt(Node node, Node_ConstPtr nodes, uvec4 before)
 {
     uvec4 indices = childIndicesAfter(node, before);
     if (kEntriesPerWord == 0u)
         return indices;
     bvec4 listed = notEqual(indices & kChildList, uvec4(0u));
-    uvec4 at = mix(uvec4(0u), indices & ~kChildList, listed);
-    return mix(indices, listEntries(uint64_t_ConstPtr(uint64_t(nodes)), at, kEntriesPerWord), listed);
+    uvec4 at = mix(uvec4(0u), indices & ~kListFlags, listed);
+    uvec4 named = listEntries(uint64_t_ConstPtr(uint64_t(nodes)), at, kEntriesPerWord) | (indices & kLeafWords);
+    return mix(indices, named, listed);
 }
 
 uvec4 loadFour(uint_ConstPtr from, uvec4 indices)

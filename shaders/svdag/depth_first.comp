@@ -34,7 +34,7 @@ void main()
     uint first_entry = params.first_entries.data[params.classes.data[self]];
     for (uint i = lane; i < count; i += kLanes)
     {
-        uint child = childIndexAfter(node, i);
+        uint child = childIndexAfter(node, i) - params.child_reference;
         uint child_rank = rank + 1u + (kAboveLeaves ? i : params.before.data[first_entry + i].nodes);
         if (kAboveLeaves)
             moveAttribute(child, child_rank);

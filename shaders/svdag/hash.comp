@@ -28,7 +28,8 @@ void main()
     uvec2 chains = uvec2(hashMask(node.mask_lo, node.mask_hi), hashMask(node.mask_hi, node.mask_lo));
     for (uint i = 0u; i < count; i += 4u)
     {
-        uvec4 classes = loadFour(params.classes, childrenAt(node, params.nodes, fourOf(count, i)));
+        uvec4 children = childrenAt(node, params.nodes, fourOf(count, i)) - params.child_reference;
+        uvec4 classes = loadFour(params.classes, children);
         chains = addToHash(chains, classes.x);
         chains = i + 1u < count ? addToHash(chains, classes.y) : chains;
         chains = i + 2u < count ? addToHash(chains, classes.z) : chains;

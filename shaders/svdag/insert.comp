@@ -13,6 +13,13 @@ layout(local_size_x = kSvdagGroup) in;
 #include "lib/dispatch.glsl"
 #include "svdag/candidate.glsl"
 
+Node loadCandidate(uint number)
+{
+    if (kLeaves)
+        return loadNodeOf(params.nodes, uvec2_ConstPtr(0ul), number + params.reference);
+    return params.nodes.data[number];
+}
+
 // Compares the children of inner nodes. equal: their masks are equal.
 bool haveEqualChildren(Node a, Node b, bool equal)
 {
@@ -21,8 +28,8 @@ bool haveEqualChildren(Node a, Node b, bool equal)
     for (uint i = 0u; equal && i < count; i += 4u)
     {
         uvec4 four = fourOf(count, i);
-        equal = loadFour(classes, childrenAt(a, params.nodes, four)) ==
-                loadFour(classes, childrenAt(b, params.nodes, four));
+        equal = loadFour(classes, childrenAt(a, params.nodes, four) - params.child_reference) ==
+                loadFour(classes, childrenAt(b, params.nodes, four) - params.child_reference);
     }
     return equal;
 }
@@ -33,7 +40,7 @@ void main()
     if (index >= params.node_count)
         return;
     uint self = params.first_node + index;
-    Node node = params.nodes.data[self];
+    Node node = loadCandidate(self);
     uvec2 hash = kLeaves ? uvec2(hashMask(node.mask_lo, node.mask_hi), 0u) : params.hashes.data[index];
     uint slot = hash.x & params.slot_mask;
     uint first = self; // of the class
@@ -46,7 +53,7 @@ void main()
             first = atomicCompSwap(params.table.data[params.first_slot + slot], kEmptySlot, self);
             first = first == kEmptySlot ? self : first;
         }
-        Node other = params.nodes.data[first];
+        Node other = loadCandidate(first);
         bool equal = other.mask_lo == node.mask_lo && other.mask_hi == node.mask_hi;
         if (!kLeaves)
         {

@@ -1,6 +1,6 @@
 #version 460
 // SPDX-License-Identifier: MIT
-// Writes the unique leaves.
+// Writes the unique leaves, as leaf words unless the root is the leaf.
 #extension GL_GOOGLE_include_directive : require
 #include "svdag/svdag.h"
 
@@ -8,6 +8,7 @@ GPU_ENTRY(UniqueLeavesParams, GPU_NO_CONSTANTS);
 layout(local_size_x = kSvdagGroup) in;
 
 #include "lib/dispatch.glsl"
+#include "lib/node.glsl"
 
 void main()
 {
@@ -15,6 +16,9 @@ void main()
     if (index >= params.node_count)
         return;
     uint number = params.first_node + index;
-    Node node = params.nodes.data[params.unique_nodes.data[number]];
-    params.pool.data[number] = Node(node.mask_lo, 0u, node.mask_hi, bitCount(node.mask_lo));
+    uvec2 mask = nodeMask(params.nodes, params.unique_nodes.data[number] + params.reference);
+    if (params.first_node == 0u)
+        params.pool.data[0] = Node(mask.x, 0u, mask.y, bitCount(mask.x));
+    else
+        uint64_t_Ptr(uint64_t(params.pool)).data[params.first_node + number] = packUint2x32(mask);
 }

@@ -15,7 +15,10 @@ layout(local_size_x = kSvdagGroup) in;
 BeforeChild belowOf(uint number)
 {
     if (kAboveLeaves)
-        return BeforeChild(childCount(params.pool.data[number]), 1u);
+    {
+        uvec2 mask = nodeMask(Node_ConstPtr(uint64_t(params.pool)), number + params.leaf_reference);
+        return BeforeChild(bitCount(mask.x) + bitCount(mask.y), 1u);
+    }
     return params.below.data[number];
 }
 
@@ -61,7 +64,8 @@ void main()
     BeforeChild before = BeforeChild(0u, 0u);
     for (uint i = 0u; i < count; i += 4u)
     {
-        uvec4 children = loadFour(params.classes, childrenAt(node, params.nodes, fourOf(count, i)));
+        uvec4 references = childrenAt(node, params.nodes, fourOf(count, i));
+        uvec4 children = loadFour(params.classes, references - params.child_reference);
         children = loadFour(params.numbers, children);
         BeforeChild below[4];
         [[unroll]] for (uint k = 0u; k < 4u; ++k)
@@ -69,7 +73,7 @@ void main()
         [[unroll]] for (uint k = 0u; k < 4u; ++k)
             if (i + k < count)
             {
-                setEntry(params.first_index + first_entry + i + k, children[k]);
+                setEntry(params.first_index + first_entry + i + k, leafWord(children[k] + params.leaf_reference));
                 if (kBefore)
                     setBefore(first_entry + i + k, before);
                 before.voxels += below[k].voxels;
@@ -78,6 +82,6 @@ void main()
     }
     if (kBefore)
         params.below.data[number] = BeforeChild(before.voxels, before.nodes + 1u);
-    uint base = kChildList | (params.first_index + first_entry);
+    uint base = kChildList | (params.leaf_reference & kLeafWords) | (params.first_index + first_entry);
     params.pool.data[number] = Node(node.mask_lo, base, node.mask_hi, base + bitCount(node.mask_lo));
 }

@@ -32,7 +32,8 @@ struct ClassHashParams // push constants of svdag/hash
     GPU_PTR(uvec2) hashes;       // [node_count]
     uint first_node;
     uint node_count;
-    uint hash_mask; // bits of both halves of a hash that are kept
+    uint hash_mask;       // bits of both halves of a hash that are kept
+    uint child_reference; // from the number of a child to its reference
 };
 #define SVDAG_HASH_CONSTANTS(CONSTANT)                                                                                 \
     CONSTANT(0, uint, entries_per_word, kEntriesPerWord, 0u) /* of candidates' lists; 0: there are none */
@@ -50,6 +51,8 @@ struct ClassInsertParams // push constants of svdag/insert
     uint first_slot; // of the level
     uint slot_mask;  // its slots, a power of two, less one
     uint level;
+    uint reference;       // from the number of a candidate to its reference
+    uint child_reference; // from that of a child
 };
 #define SVDAG_INSERT_CONSTANTS(CONSTANT)                                                                               \
     CONSTANT(0, uint, entries_per_word, kEntriesPerWord, 0u) /* of candidates' lists; 0: there are none */             \
@@ -101,6 +104,7 @@ struct UniqueLeavesParams // push constants of svdag/leaves
     GPU_PTR(Node) pool;
     uint first_node; // of the DAG
     uint node_count;
+    uint reference; // from the number of a candidate to its reference
 };
 GPU_KERNEL(svdag, leaves, Leaves, UniqueLeavesParams, GPU_NO_CONSTANTS)
 
@@ -120,6 +124,8 @@ struct UniqueListsParams // push constants of svdag/lists
     uint node_count;
     uint first_index;      // of entries
     uint long_entry_count; // entries before those of the parents of leaves
+    uint child_reference;  // from the number of a child among the candidates to its reference
+    uint leaf_reference;   // from that among the DAG's nodes; 0 unless the children are leaves
 };
 #define SVDAG_LISTS_CONSTANTS(CONSTANT)                                                                                \
     CONSTANT(0, uint, entries_per_word, kEntriesPerWord, 0u) /* of candidates' lists; 0: there are none */             \
@@ -139,6 +145,7 @@ struct DepthFirstParams // push constants of svdag/depth_first
     GPU_PTR(uint) ranks;           // [nodes of the octree] in depth-first order; the level's are known
     uint first_node;
     uint node_count;
+    uint child_reference; // from the number of a child to its reference
 };
 #define SVDAG_DEPTH_FIRST_CONSTANTS(CONSTANT)                                                                          \
     CONSTANT(0, uint, entries_per_word, kEntriesPerWord, 0u) /* of candidates' lists; 0: there are none */             \
@@ -156,7 +163,7 @@ struct AppendParams // push constants of svdag/append: one thread a node
     uint first_to;
     uint node_count;
     uint entry_shift; // from the index of an entry to that of its copy, modulo 2^32 as the next one
-    uint child_shift; // from the number of a child to that of its copy
+    uint child_shift; // from the number of a child, or of its word, to that of its copy
 };
 #define SVDAG_APPEND_CONSTANTS(CONSTANT)                                                                               \
     CONSTANT(0, uint, entries_per_word, kEntriesPerWord, 2u) /* of the lists that are copied */

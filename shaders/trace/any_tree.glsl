@@ -109,6 +109,7 @@ vec3 zvo_pixelDirection(CameraRays camera, bool orthographic, uvec2 pixel, uvec2
 void setTree(TreeTable_ConstPtr tree)
 {
     g_halves = uint64_t_ConstPtr(uint64_t(tree.data[0].source.pool));
+    g_leaf_groups = uint64_t_ConstPtr(uint64_t(tree.data[0].source.before));
 #ifndef ZVO_NODE_LEVELS
     kNodeLevels = tree.data[0].node_levels;
 #endif

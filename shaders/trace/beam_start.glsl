@@ -128,9 +128,11 @@ float beamStart(Beam beam, uint mirror)
     {
         ++iterations;
         uint size = 1u << (kRootShift - 2u * level);
-        uvec2 lower = loadHalf(2u * node);
-        uvec2 upper = loadHalf(2u * node + 1u);
-        MetChildren met = meetChildren(beam, corner, size, uvec2(lower.x, upper.x), start);
+        bool is_word = isLeafWord(node);
+        uvec2 lower = loadHalf(is_word ? leafWord(node) : 2u * node);
+        uvec2 upper = loadHalf(is_word ? leafWord(node) : 2u * node + 1u);
+        uvec2 mask = uvec2(lower.x, is_word ? upper.y : upper.x);
+        MetChildren met = meetChildren(beam, corner, size, mask, start);
         // A ray that stops at cells of this size, for a level of detail, does so before the beam has left the node.
         bool ends = level + 1u == kNodeLevels || iterations >= kIterationsMax ||
                     edgeOf(size) <= max(beam.small.x * met.last, beam.small.y);
@@ -161,8 +163,8 @@ float beamStart(Beam beam, uint mirror)
         if (kEntriesPerWord != 0u)
         {
             bool listed = go && int(node) < 0; // every beam loads an entry: lib/traverse.glsl says why
-            uint named = loadEntry(listed ? node & ~kChildList : 0u, kEntriesPerWord);
-            node = listed ? named : node;
+            uint named = loadEntry(listed ? node & ~kListFlags : 0u, kEntriesPerWord);
+            node = listed ? named | (node & kLeafWords) : node;
         }
         uint shift = kRootShift - 2u * parent_level;
         corner = (corner & (~0u << (shift + 2u))) + (cellNumbered(child) << shift);

@@ -27,7 +27,7 @@ uint nodeAround(uvec3 cell, uint level)
         uint index = childIndex(params.nodes.data[node], cellInBlock(cell >> (2u * (level - k))));
         node = kEntriesPerWord != 0u ? listedChild(params.nodes, index, kEntriesPerWord) : index;
     }
-    return node;
+    return isLeafWord(node) ? leafWord(node) - (kEntriesPerWord == 0u ? params.leaf_groups.data[0].x : 0u) : node;
 }
 
 void main()
@@ -42,6 +42,7 @@ void main()
     precise vec3 direction = params.camera.forward + (kOrthographic ? vec3(0.0) : offset);
     precise vec3 origin = params.camera.origin + (kOrthographic ? offset : vec3(0.0));
     g_halves = uint64_t_ConstPtr(uint64_t(params.nodes));
+    g_leaf_groups = uint64_t_ConstPtr(uint64_t(params.leaf_groups));
     Traversal met = traverse(origin, inverseDirection(direction), 0.0, kTraceTimeMax, params.detail);
 
     PixelReport report;

@@ -21,6 +21,9 @@ layout(local_size_x = kTilePixels) in;
 #endif
 #define NODES_BINDING 0
 #define PATHS_BINDING 1
+#ifndef PRIMARY_RANKS
+#define GROUPS_BINDING 2
+#endif
 #include "lib/half_node.glsl"
 #include "trace/traverse_paths.glsl"
 #include "trace/rounds.glsl"
@@ -69,6 +72,9 @@ void main()
     precise vec3 direction = camera.forward + (kOrthographic ? vec3(0.0) : offset);
     precise vec3 origin = camera.origin + (kOrthographic ? offset : vec3(0.0));
     g_halves = uint64_t_ConstPtr(uint64_t(params.nodes));
+#ifndef PRIMARY_RANKS
+    g_leaf_groups = uint64_t_ConstPtr(uint64_t(params.leaf_groups));
+#endif
     g_paths = params.paths;
     uint i = pixel.y * size.x + pixel.x;
 #ifdef PRIMARY_RANKS

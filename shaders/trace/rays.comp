@@ -8,6 +8,7 @@ GPU_ENTRY(RaysParams, TRACE_RAYS_CONSTANTS);
 layout(local_size_x = kRaysGroup) in;
 
 #define NODES_BINDING 0
+#define GROUPS_BINDING 1
 #include "lib/bound.glsl"
 #include "lib/dispatch.glsl"
 #include "lib/half_node.glsl"
@@ -35,6 +36,7 @@ void main()
     Ray ray = loadRay(params.rays, i);
     bool valid = isTraceable(ray);
     g_halves = uint64_t_ConstPtr(uint64_t(params.nodes));
+    g_leaf_groups = uint64_t_ConstPtr(uint64_t(params.leaf_groups));
     // An invalid ray is replaced by one that ends before it starts.
     Traversal result = traverse(valid ? ray.origin : vec3(0.0), valid ? ray.inverse_direction : vec3(1.0),
                                 valid ? ray.t_min : 1.0, valid ? ray.t_max : 0.0, params.detail, from, kIterationsMax);

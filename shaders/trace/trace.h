@@ -48,8 +48,9 @@ const float kTileDead = kTraceTimeMax; // a tile's start where no ray of the til
 struct RaysParams // push constants of trace/rays
 {
     GPU_CONST_PTR(Node) nodes;
-    GPU_CONST_PTR(Ray) rays; // [ray_count]
-    GPU_PTR(Hit) hits;       // [ray_count]
+    GPU_CONST_PTR(uvec2) leaf_groups; // of an octree
+    GPU_CONST_PTR(Ray) rays;          // [ray_count]
+    GPU_PTR(Hit) hits;                // [ray_count]
     GPU_PTR(TraceStatus) status;
     GPU_PTR(DispatchArgs) next_round; // [1] cleared; kMore only
     GPU_CONST_PTR(uint) list_length;  // [1], at most ray_count; kCounted only
@@ -101,7 +102,8 @@ GPU_KERNEL(trace, ranks, Ranks, RanksParams, TRACE_RANKS_CONSTANTS)
 struct PrimaryParams // push constants of trace/primary
 {
     GPU_CONST_PTR(Node) nodes;
-    GPU_CONST_PTR(uint64_t) paths; // of trace/node_paths; kPaths only
+    GPU_CONST_PTR(uvec2) leaf_groups; // of an octree
+    GPU_CONST_PTR(uint64_t) paths;    // of trace/node_paths; kPaths only
     GPU_CONST_PTR(uvec2) live;
     GPU_PTR(TraceStatus) status;
     GPU_PTR(DispatchArgs) next_round; // [1] cleared: of the round that unfinished rays wait for; kMore only
@@ -160,7 +162,7 @@ struct PixelReport
     uvec3 cell;      // coordinates at its level
     uint level;      // of nodes; nodeLevels() for a voxel
     uint face;       // as in Hit
-    uint node;       // that the cell is in: its number among the nodes
+    uint node;       // that the cell is in: its number among the nodes; of a leaf of a DAG, that of its word
     uint index;      // of its attributes, as in Hit
     Attribute look;  // base colour and normal, in 8 bytes whatever their format; 0 without attributes
     uint iterations; // of the traversal's loop, from the camera on
@@ -170,6 +172,7 @@ GPU_BUFFER(PixelReport, 4);
 struct InspectParams // push constants of trace/inspect: one thread a pixel
 {
     GPU_CONST_PTR(Node) nodes;
+    GPU_CONST_PTR(uvec2) leaf_groups; // of an octree
     GPU_CONST_PTR(Hit) hits;
     GPU_CONST_PTR(Attribute) attributes; // of voxels, in the format of kFormat
     GPU_CONST_PTR(Attribute) node_attributes;

@@ -64,8 +64,9 @@ uint expandChild(uint entry, uint cell, bool dag_leaves, out uint child)
             base = baseChild(touched, cell, dag_leaves);
     }
     Node merged = Node(0u, 0u, 0u, 0u);
+    uint64_t leaf_groups = kEntriesPerWord == 0u ? uint64_t(params.before) : 0ul;
     if (base.node != kNoNode)
-        merged = params.nodes.data[base.node];
+        merged = loadNodeOf(Node_ConstPtr(uint64_t(params.nodes)), uvec2_ConstPtr(leaf_groups), base.node);
     if (kRanks)
         params.ranks.data[child] = BeforeChild(base.voxels, base.rank);
     uint count = 0u;
@@ -82,8 +83,9 @@ uint expandChild(uint entry, uint cell, bool dag_leaves, out uint child)
     {
         if (kAttributes)
             params.node_attributes.data[child + params.attribute_offset] =
-                params.node_attributes.data[base.node >= params.static_root ? base.node + params.attribute_offset
-                                                                            : base.rank];
+                params.node_attributes.data[isBehind(params.static_root, base.node)
+                                                ? base.node + params.attribute_offset
+                                                : base.rank];
         if (kRanks && dag_leaves) // written as an octree's leaf
         {
             merged.base_lo += base.voxels;

@@ -38,7 +38,7 @@ MergedLeaf mergedLeaf(uint item)
         leaf.node = params.nodes.data[touched.node];
         leaf.has_base = touched.base != kNoNode;
         if (leaf.has_base)
-            leaf.base = params.nodes.data[touched.base];
+            leaf.base = loadNodeOf(params.nodes, params.leaf_groups, touched.base);
         uint first_voxel = kRanks ? params.ranks.data[touched.node].voxels : 0u;
         leaf.base.base_lo += first_voxel;
         leaf.base.base_hi += first_voxel;

@@ -97,7 +97,7 @@ GPU_BUFFER(LayerLink, 4);
 struct TouchedNode
 {
     uint node; // its index
-    uint base; // the node of the base tree at the same position, or kNoNode
+    uint base; // reference of the node of the base tree at the same position, or kNoNode
 };
 GPU_BUFFER(TouchedNode, 4);
 
@@ -289,6 +289,7 @@ struct MergeParams // push constants of update/merge and update/merge_emission
     GPU_CONST_PTR(LayerLink) links;
     GPU_CONST_PTR(Layer) layers;
     GPU_CONST_PTR(Node) nodes;
+    GPU_CONST_PTR(uvec2) leaf_groups; // of an octree
     GPU_CONST_PTR(BeforeChild) ranks; // by nodes of overlays; kRanks only
     GPU_PTR(Attribute) attributes;
     GPU_PTR(uvec2) emission_words; // the overlay's bits cleared; or null

@@ -2,11 +2,12 @@
 #include "runtime/flatten.h"
 
 #include "core/base/divide_up.h"
-#include "core/tree/list_packing.h"
+#include "core/tree/leaf_words.h"
 #include "zvo/error.h"
 
 #include <bit>
 #include <cstdint>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -31,36 +32,62 @@ class Source
 {
 public:
     Source(vk::HeadlessDevice& device, const DeviceTree& tree)
-        : m_nodes(device.download(tree.nodes)), m_voxels(device.download(tree.voxel_attributes)),
-          m_averages(device.download(tree.node_attributes)), m_emission_words(device.download(tree.emission_words)),
-          m_emission(device.download(tree.emission))
+        : m_nodes(device.download(tree.nodes)), m_words(wordsOf(m_nodes)), m_inner_count(tree.innerCount()),
+          m_voxels(device.download(tree.voxel_attributes)), m_averages(device.download(tree.node_attributes)),
+          m_emission_words(device.download(tree.emission_words)), m_emission(device.download(tree.emission))
     {
+        m_attribute_offset = tree.hasOverlays() ? tree.attributeOffset() : 0;
         if (!tree.isDag())
         {
+            std::uint32_t voxels = 0;
+            for (std::uint64_t word = 2 * std::uint64_t{m_inner_count}; word < tree.nodeWords(); ++word)
+            {
+                m_first_voxels.push_back(voxels);
+                voxels += static_cast<std::uint32_t>(std::popcount(m_words[word]));
+            }
             return;
         }
         m_before = device.download(tree.lists.before);
         m_voxels_before_leaf = device.download(tree.lists.voxels_before_leaf);
-        m_entries = nodesToEntries(device.download(tree.nodes, tree.node_count), tree.packing());
-        m_first_entry = tree.packing().firstEntry();
+        const ListPacking packing = tree.packing();
+        m_entries = unpackEntries(std::span(m_words).subspan(packing.node_words, packing.wordCount()),
+                                  packing.entry_count, packing.per_word);
+        m_first_entry = packing.firstEntry();
         m_first_short_entry = m_first_entry + tree.lists.long_entry_count;
         m_first_overlay_node = static_cast<std::uint32_t>(m_nodes.size());
         if (tree.hasOverlays())
         {
             m_ranks = device.download(tree.overlays.ranks);
             m_first_overlay_node = tree.overlays.static_root + 1;
-            m_attribute_offset = tree.attributeOffset();
         }
     }
 
-    [[nodiscard]] const gpu::Node& node(const NodeOnPath& at) const { return m_nodes[at.node]; }
+    [[nodiscard]] gpu::Node node(const NodeOnPath& at) const
+    {
+        if ((at.node & gpu::kLeafWords) == 0)
+        {
+            return m_nodes[at.node];
+        }
+        const std::uint32_t word = at.node & ~gpu::kLeafWords;
+        const auto mask_lo = static_cast<gpu::uint>(m_words[word]);
+        const std::uint32_t first = m_first_voxels.empty() ? 0 : m_first_voxels[word - 2 * m_inner_count];
+        return {mask_lo, first, static_cast<gpu::uint>(m_words[word] >> 32),
+                first + static_cast<std::uint32_t>(std::popcount(mask_lo))};
+    }
     [[nodiscard]] bool hasAttributes() const { return !m_voxels.empty(); }
     [[nodiscard]] bool hasAverages() const { return !m_averages.empty(); }
 
     [[nodiscard]] const gpu::Attribute& average(const NodeOnPath& at) const
     {
-        const std::uint32_t own = at.node == 0 ? 0 : at.node + m_attribute_offset; // modulo 2^32
-        return m_averages[at.is_listed ? at.rank.nodes : own];
+        if (at.is_listed)
+        {
+            return m_averages[at.rank.nodes];
+        }
+        if ((at.node & gpu::kLeafWords) != 0)
+        {
+            return m_averages[(at.node & ~gpu::kLeafWords) - m_inner_count];
+        }
+        return m_averages[at.node < m_inner_count ? at.node : at.node + m_attribute_offset]; // modulo 2^32
     }
 
     // What a node's base and the rank of a child in its half name.
@@ -70,8 +97,10 @@ public:
         {
             return {.node = base + rank};
         }
-        const std::uint32_t index = (base & ~gpu::kChildList) + rank;
-        return {.node = m_entries[index - m_first_entry], .rank = rankOf(parent, index, is_leaf), .is_listed = true};
+        const std::uint32_t index = (base & ~gpu::kListFlags) + rank;
+        return {.node = m_entries[index - m_first_entry] | (base & gpu::kLeafWords),
+                .rank = rankOf(parent, index, is_leaf),
+                .is_listed = true};
     }
 
     // The attribute, and what is emitted, of a leaf's voxel.
@@ -103,11 +132,14 @@ private:
         }
         const std::uint64_t entry = index - m_first_short_entry;
         const std::uint32_t before = m_voxels_before_leaf[entry / 2] >> 16 * (entry % 2) & 0xFFFFU;
-        const std::uint32_t first = m_nodes[parent.node].base_lo & ~gpu::kChildList;
+        const std::uint32_t first = m_nodes[parent.node].base_lo & ~gpu::kListFlags;
         return {rank.voxels + before, rank.nodes + 1 + (index - first)};
     }
 
     std::vector<gpu::Node> m_nodes;
+    std::vector<std::uint64_t> m_words;        // the same
+    std::uint32_t m_inner_count;               // of the static tree
+    std::vector<std::uint32_t> m_first_voxels; // of the leaf words of an octree
     std::vector<gpu::Attribute> m_voxels;
     std::vector<gpu::Attribute> m_averages;
     std::vector<gpu::uvec2> m_emission_words;

@@ -42,6 +42,7 @@ std::string octreeSha256(vk::HeadlessDevice& device, const DeviceTree& tree)
                            tree.node_count,  tree.voxel_count,     tree.emission_scale};
     sha.update(std::as_bytes(std::span(&header, 1)));
     hashBuffer(device, sha, tree.nodes);
+    hashBuffer(device, sha, tree.leaf_groups);
     hashBuffer(device, sha, tree.voxel_attributes);
     hashBuffer(device, sha, tree.node_attributes);
     hashBuffer(device, sha, tree.packed.voxels);

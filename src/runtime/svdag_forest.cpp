@@ -56,6 +56,12 @@ struct JoinedLayout
     std::vector<PartOffsets> parts;
     std::vector<DeviceTree::Level> levels;
     ListPacking packing;
+
+    // The room of a whole node, at which the lists above the tiles begin: behind a word of zeros, if need be.
+    [[nodiscard]] std::uint64_t firstListNode() const
+    {
+        return divideUp(packing.node_words, ListPacking::kWordsOfNode);
+    }
 };
 
 // top: the octree of the tiles. Throws Error{Memory} if 31-bit numbers do not suffice.
@@ -78,14 +84,16 @@ JoinedLayout layoutOf(std::span<const DeviceTree* const> dags, const TreeData& t
         layout.levels.push_back(
             {static_cast<std::uint32_t>(first_node), static_cast<std::uint32_t>(node_count - first_node)});
     }
+    const std::uint64_t leaf_words = layout.levels.back().node_count;
+    layout.packing = {2 * node_count - leaf_words, 0, kJoinedPerWord};
     const std::uint64_t top_entries = top.nodes.size() - 1 + top.voxel_count; // one names a node or tile
-    std::uint64_t entry_count = divideUp(top_entries, kNodeEntries) * kNodeEntries;
+    std::uint64_t entry_end = (layout.firstListNode() + divideUp(top_entries, kNodeEntries)) * kNodeEntries;
     for (std::size_t i = 0; i < dags.size(); ++i)
     {
-        layout.parts[i].first_entry = node_count * kNodeEntries + entry_count;
-        entry_count += dags[i]->lists.entry_count;
+        layout.parts[i].first_entry = entry_end;
+        entry_end += dags[i]->lists.entry_count;
     }
-    layout.packing = {node_count, entry_count, kJoinedPerWord};
+    layout.packing.entry_count = entry_end - layout.packing.firstEntry();
     if (!layout.packing.fits())
     {
         throw Error(ErrorCode::Memory, "the tiles' nodes and lists take more words than 31-bit numbers count; lower "
@@ -95,23 +103,25 @@ JoinedLayout layoutOf(std::span<const DeviceTree* const> dags, const TreeData& t
 }
 
 // Allocates the common pool and uploads the nodes and lists above the tiles' roots.
-void makePool(vk::HeadlessDevice& device, const TreeData& top, const ListPacking& packing, DeviceTree& tree)
+void makePool(vk::HeadlessDevice& device, const TreeData& top, const JoinedLayout& layout, DeviceTree& tree)
 {
+    const ListPacking& packing = layout.packing;
     device.device().memory().require(packing.poolNodes() * sizeof(gpu::Node), "joining the tiles");
     tree.nodes = {device.device(), "svdag/forest", packing.poolNodes()};
     device.upload(tree.nodes, std::span<const gpu::Node>(top.nodes));
-    device.upload(tree.nodes, std::span<const gpu::Node>(entriesToNodes(top.lists, packing.per_word)),
-                  packing.node_count);
+    const std::vector<gpu::Node> lists = nodesOf(packEntries(top.lists, packing.per_word));
+    device.upload(tree.nodes, std::span(lists), layout.firstListNode());
 }
 
 void appendLevel(vk::FrameGraph& graph, const DeviceTree& from, std::size_t level, const PartOffsets& offsets,
                  DeviceTree& to)
 {
+    constexpr std::uint64_t kWord = sizeof(std::uint64_t);
     const auto [first_node, node_count] = from.levels[level];
     if (level + 1 == from.levels.size())
     {
-        graph.copy(from.nodes, first_node * sizeof(gpu::Node), to.nodes, offsets.first_nodes[level] * sizeof(gpu::Node),
-                   node_count * sizeof(gpu::Node));
+        graph.copy(from.nodes, (from.innerCount() + first_node) * kWord, to.nodes,
+                   (to.innerCount() + offsets.first_nodes[level]) * kWord, node_count * kWord);
         return;
     }
     vk::Pass pass = graph.addPass(gpu::svdag::Append{.entries_per_word = from.entriesPerWord()});
@@ -124,6 +134,10 @@ void appendLevel(vk::FrameGraph& graph, const DeviceTree& from, std::size_t leve
     params.node_count = node_count;
     params.entry_shift = static_cast<std::uint32_t>(offsets.first_entry - from.packing().firstEntry());
     params.child_shift = static_cast<std::uint32_t>(offsets.first_nodes[level + 1] - from.levels[level + 1].first_node);
+    if (level + 2 == from.levels.size()) // the numbers of words
+    {
+        params.child_shift += to.innerCount() - from.innerCount();
+    }
     pass.dispatch(node_count, params);
 }
 
@@ -145,7 +159,7 @@ void appendParts(vk::FrameGraph& graph, std::span<const DeviceTree* const> dags,
 SvdagForest::SvdagForest(vk::HeadlessDevice& device, const Grid& grid, std::uint32_t tile_depth)
     : m_device(device), m_grid(grid), m_tile_depth(tile_depth), m_top_levels(grid.nodeLevels() - tile_depth / 2)
 {
-    assert(tile_depth % 2 == 0 && tile_depth < grid.depth);
+    assert(tile_depth % 2 == 0 && tile_depth >= 4 && tile_depth < grid.depth);
 }
 
 void SvdagForest::add(std::uint64_t code, DeviceTree dag)
@@ -204,16 +218,17 @@ SvdagForest::Part SvdagForest::joined()
             all.tiles.push_back({tile.code, roots.back()});
         }
     }
-    makeLists(above, roots, layout.packing.firstEntry());
+    makeLists(above, roots, layout.firstListNode() * kNodeEntries);
 
     DeviceTree& tree = all.dag;
     tree.structure = TreeStructure::Svdag;
     tree.grid = m_grid;
-    tree.node_count = static_cast<std::uint32_t>(layout.packing.node_count);
     tree.levels = layout.levels;
+    tree.node_count = tree.levels.back().first_node + tree.levels.back().node_count;
+    tree.leaf_words = tree.levels.back().node_count;
     tree.lists.entry_count = layout.packing.entry_count;
     tree.lists.entries_per_word = layout.packing.per_word;
-    makePool(m_device, above, layout.packing, tree);
+    makePool(m_device, above, layout, tree);
     const std::vector<vk::PassTime> passes =
         m_device.run([&](vk::FrameGraph& graph) { appendParts(graph, dags, m_top_levels, layout, tree); });
     m_passes.insert(m_passes.end(), passes.begin(), passes.end());
@@ -230,9 +245,12 @@ void SvdagForest::learnRoots(Part& part) const
     {
         entry_count += static_cast<std::uint64_t>(std::popcount(cellMask(node)));
     }
-    const ListPacking packing = {tree.node_count, entry_count, tree.lists.entries_per_word};
-    const std::vector<gpu::uint> lists =
-        nodesToEntries(m_device.download(tree.nodes, tree.node_count, packing.poolNodes() - tree.node_count), packing);
+    const ListPacking packing = {tree.nodeWords(), entry_count, tree.lists.entries_per_word};
+    const std::uint64_t first = packing.node_words / ListPacking::kWordsOfNode;
+    const std::vector<std::uint64_t> words = wordsOf(m_device.download(tree.nodes, first, packing.poolNodes() - first));
+    const std::vector<gpu::uint> lists = unpackEntries(
+        std::span(words).subspan(packing.node_words - first * ListPacking::kWordsOfNode, packing.wordCount()),
+        entry_count, packing.per_word);
     const auto childOf = [&](const gpu::Node& node, std::uint64_t cell)
     {
         const auto before =

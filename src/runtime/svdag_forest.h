@@ -17,8 +17,8 @@ namespace zvo
 class SvdagForest
 {
 public:
-    /// tile_depth: tiles are cubes of (1 << tile_depth)^3 voxels. It must be even, as tiles consist of whole nodes, and
-    /// less than grid.depth.
+    /// tile_depth: tiles are cubes of (1 << tile_depth)^3 voxels. It must be even, as tiles consist of whole nodes, at
+    /// least 4, and less than grid.depth.
     SvdagForest(vk::HeadlessDevice& device, const Grid& grid, std::uint32_t tile_depth);
 
     /// Adds the DAG of the whole grid in which only one tile has voxels. code: the tile's Morton code among the tiles;

@@ -2,6 +2,7 @@
 #include "runtime/trees.h"
 
 #include "core/attributes/attribute_pack.h"
+#include "core/tree/leaf_words.h"
 #include "runtime/run_job.h"
 #include "zvo/error.h"
 
@@ -19,12 +20,6 @@ void requireAsBuilt(const DeviceTree& tree)
     if (!has_levels || tree.nodes.count() != tree.packing().poolNodes())
     {
         throw Error(ErrorCode::Usage, "a tree that something was merged into cannot be copied to the host; rebuild it");
-    }
-    const ListPacking tightest = ListPacking::tightest(tree.node_count, tree.lists.entry_count);
-    if (tree.lists.entry_count != 0 && tree.lists.entries_per_word != tightest.per_word)
-    {
-        throw Error(ErrorCode::Usage, "a DAG whose words have fewer entries than they could cannot be copied to the "
-                                      "host; compress it without that option");
     }
 }
 
@@ -75,8 +70,7 @@ TreeData downloadTree(vk::HeadlessDevice& device, const DeviceTree& tree)
     data.octree_node_count = tree.octreeNodeCount();
     data.long_entry_count = tree.lists.long_entry_count;
     data.levels = tree.levels;
-    data.nodes = device.download(tree.nodes, 0, tree.node_count);
-    data.lists = nodesToEntries(device.download(tree.nodes, tree.node_count), tree.packing());
+    setNodes(device.download(tree.nodes), tree, data);
     data.before = device.download(tree.lists.before);
     data.voxels_before_leaf = device.download(tree.lists.voxels_before_leaf);
     data.voxel_attributes = device.download(tree.voxel_attributes);
@@ -92,7 +86,7 @@ std::vector<std::uint64_t> voxelCodes(vk::HeadlessDevice& device, const DeviceTr
 {
     TreeData nodes;
     nodes.levels = octree.levels;
-    nodes.nodes = device.download(octree.nodes, 0, octree.node_count);
+    setNodes(device.download(octree.nodes), octree, nodes);
     std::vector<std::uint64_t> codes;
     codes.reserve(octree.voxel_count);
     forEachVoxel(nodes, [&](std::uint64_t code) { codes.push_back(code); });

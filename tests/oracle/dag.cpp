@@ -239,6 +239,47 @@ ReferenceDag referenceDag(std::span<const gpu::Node> nodes, std::span<const Node
     return dag;
 }
 
+LeafWordPool leafWordPool(const ReferenceDag& dag, std::uint32_t entries_per_word)
+{
+    LeafWordPool pool;
+    pool.leaf_words = dag.levels.size() > 1 ? dag.levels.back().node_count : 0;
+    const std::uint32_t inner_count = dag.node_count - pool.leaf_words;
+    const std::uint32_t word_count = 2 * inner_count + pool.leaf_words;
+    const std::uint32_t per_word = entries_per_word != 0 ? entries_per_word : entriesPerWord(word_count);
+    pool.entries_per_word = per_word;
+    const std::uint64_t first_place = std::uint64_t{2} * dag.node_count * dag.entries_per_word;
+    std::vector<std::uint32_t> words; // halves
+    for (std::uint32_t i = 0; i < dag.node_count; ++i)
+    {
+        const gpu::Node& node = dag.pool[i];
+        if (i >= inner_count)
+        {
+            words.insert(words.end(), {node.mask_lo, node.mask_hi});
+            continue;
+        }
+        const bool above_leaves = i >= dag.levels[dag.levels.size() - 2].first_node;
+        const std::uint64_t list = (node.base_lo & ~gpu::kChildList) - first_place;
+        const std::uint32_t base = gpu::kChildList | (above_leaves ? gpu::kLeafWords : 0) |
+                                   static_cast<std::uint32_t>(word_count * per_word + list);
+        words.insert(words.end(), {node.mask_lo, base, node.mask_hi,
+                                   base + static_cast<std::uint32_t>(std::popcount(node.mask_lo))});
+    }
+    std::vector<std::uint32_t> entries(std::size_t{word_count} * per_word); // those in the room of nodes are no entries
+    for (std::uint64_t i = 0; i < dag.entry_count; ++i)
+        entries.push_back(entryAt(dag.pool, first_place + i, dag.entries_per_word) +
+                          (i >= dag.long_entry_count ? inner_count : 0));
+    appendEntries(pool.nodes, entries, per_word);
+    if (pool.leaf_words == 0)
+        pool.nodes = dag.pool;
+    for (std::size_t i = 0; i < words.size() && pool.leaf_words != 0; ++i)
+    {
+        gpu::Node& node = pool.nodes[i / kWordsPerNode];
+        gpu::uint* const parts[] = {&node.mask_lo, &node.base_lo, &node.mask_hi, &node.base_hi};
+        *parts[i % kWordsPerNode] = words[i];
+    }
+    return pool;
+}
+
 namespace
 {
 

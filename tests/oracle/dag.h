@@ -35,6 +35,18 @@ std::uint32_t entryAt(std::span<const gpu::Node> pool, std::uint64_t place, std:
 ReferenceDag referenceDag(std::span<const gpu::Node> nodes, std::span<const NodeRange> levels,
                           std::uint32_t entries_per_word = 0);
 
+/// The pool of a DAG whose leaves are leaf words (shaders/shared/svdag.h), of which there are none if the root is a
+/// leaf.
+struct LeafWordPool
+{
+    std::vector<gpu::Node> nodes;
+    std::uint32_t leaf_words = 0;
+    std::uint32_t entries_per_word = 0; // entries in 64 bits
+};
+
+/// entries_per_word: 2 or 3, or 0 for as many as the numbers of words allow.
+LeafWordPool leafWordPool(const ReferenceDag& dag, std::uint32_t entries_per_word);
+
 constexpr std::uint64_t kNoRank = ~std::uint64_t{0};
 
 /// A voxel or a node of the octree that a DAG represents.

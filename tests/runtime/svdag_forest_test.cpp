@@ -74,7 +74,7 @@ TEST(SvdagForest, MergesOnTheWay)
 // Each tile is a single node, below several levels.
 TEST(SvdagForest, OfTheSmallestTilesIsTheDagOfTheWhole)
 {
-    expectTilesMakeTheWhole(test::sphereScene({0, 0, 0}, 1.0F, 16), 5, 2, true);
+    expectTilesMakeTheWhole(test::sphereScene({0, 0, 0}, 1.0F, 16), 5, 4, true);
 }
 
 TEST(SvdagForest, OfNothingIsEmpty)

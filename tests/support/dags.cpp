@@ -3,6 +3,8 @@
 
 #include "support/octree_access.h"
 
+#include <algorithm>
+#include <iterator>
 #include <span>
 #include <vector>
 
@@ -20,19 +22,20 @@ template <typename T> vk::BufferOf<T> copyOf(vk::HeadlessDevice& device, const v
 
 } // namespace
 
-oracle::ReferenceDag referenceDagOf(vk::HeadlessDevice& device, const DeviceTree& octree,
-                                    std::uint32_t entries_per_word)
+oracle::ReferenceDag referenceDagOf(vk::HeadlessDevice& device, const DeviceTree& octree)
 {
-    return oracle::referenceDag(device.download(octree.nodes), levelsOf(octree), entries_per_word);
+    return oracle::referenceDag(octreeNodes(device, octree), levelsOf(octree));
 }
 
 DeviceTree svdagOf(vk::HeadlessDevice& device, const DeviceTree& octree, std::uint32_t entries_per_word)
 {
-    return svdagOf(device, octree, referenceDagOf(device, octree, entries_per_word));
+    return svdagOf(device, octree, referenceDagOf(device, octree), entries_per_word);
 }
 
-DeviceTree svdagOf(vk::HeadlessDevice& device, const DeviceTree& octree, const oracle::ReferenceDag& reference)
+DeviceTree svdagOf(vk::HeadlessDevice& device, const DeviceTree& octree, const oracle::ReferenceDag& reference,
+                   std::uint32_t entries_per_word)
 {
+    const oracle::LeafWordPool pool = oracle::leafWordPool(reference, entries_per_word);
     DeviceTree dag;
     dag.lists.octree_node_count = octree.node_count;
     dag.lists.entry_count = reference.entry_count;
@@ -46,8 +49,9 @@ DeviceTree svdagOf(vk::HeadlessDevice& device, const DeviceTree& octree, const o
     {
         dag.levels.push_back({range.first_node, range.node_count});
     }
-    dag.lists.entries_per_word = reference.entries_per_word;
-    dag.nodes = device.makeBuffer("pool", std::span(reference.pool));
+    dag.leaf_words = pool.leaf_words;
+    dag.lists.entries_per_word = pool.entries_per_word;
+    dag.nodes = device.makeBuffer("pool", std::span(pool.nodes));
     dag.voxel_attributes = copyOf(device, octree.voxel_attributes);
     dag.emission_words = copyOf(device, octree.emission_words);
     dag.emission = copyOf(device, octree.emission);
@@ -73,8 +77,15 @@ oracle::DagContents dagContentsOf(vk::HeadlessDevice& device, const DeviceTree& 
 {
     const std::vector<gpu::BeforeChild> before = device.download(dag.lists.before);
     const std::vector<gpu::uint> voxels_before_leaf = device.download(dag.lists.voxels_before_leaf);
-    return oracle::expandDag(device.download(dag.nodes), levelsOf(dag), dag.lists.entry_count,
-                             dag.lists.long_entry_count, before, voxels_before_leaf, dag.lists.entries_per_word);
+    TreeData data;
+    data.structure = dag.structure;
+    data.levels = dag.levels;
+    data.long_entry_count = dag.lists.long_entry_count;
+    setNodes(device.download(dag.nodes), dag, data);
+    std::vector<gpu::Node> pool = data.nodes;
+    std::ranges::copy(nodesOf(packEntries(data.lists, data.packing().per_word)), std::back_inserter(pool));
+    return oracle::expandDag(pool, levelsOf(dag), dag.lists.entry_count, dag.lists.long_entry_count, before,
+                             voxels_before_leaf, data.packing().per_word);
 }
 
 } // namespace zvo::test

@@ -2,6 +2,7 @@
 #include "support/lit_voxels.h"
 
 #include "oracle/morton.h"
+#include "support/octree_access.h"
 #include "support/trace_octrees.h"
 
 #include <gtest/gtest.h>
@@ -131,8 +132,7 @@ DeviceTree litTree(vk::HeadlessDevice& device, std::vector<LitVoxel> voxels, std
     }
     if (of_nodes)
     {
-        const std::vector<gpu::Attribute> attributes_of_nodes =
-            nodeAttributes(tree, device.download(tree.nodes), voxels);
+        const std::vector<gpu::Attribute> attributes_of_nodes = nodeAttributes(tree, octreeNodes(device, tree), voxels);
         tree.node_attributes =
             device.makeBuffer("node attributes", std::span<const gpu::Attribute>(attributes_of_nodes));
     }

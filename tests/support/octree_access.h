@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "core/tree/device_tree.h"
+#include "core/tree/leaf_words.h"
 #include "oracle/octree_check.h"
 #include "shared/octree.h"
 #include "vk/headless.h"
@@ -25,10 +25,19 @@ inline std::vector<oracle::NodeRange> levelsOf(const DeviceTree& octree)
     return levels;
 }
 
+/// The nodes of an octree with levels, its leaves among them.
+inline std::vector<gpu::Node> octreeNodes(vk::HeadlessDevice& device, const DeviceTree& octree)
+{
+    TreeData data;
+    data.levels = octree.levels;
+    setNodes(device.download(octree.nodes), octree, data);
+    return data.nodes;
+}
+
 /// The voxels of octree, and the faults in its nodes.
 inline oracle::OctreeContents contentsOf(vk::HeadlessDevice& device, const DeviceTree& octree)
 {
-    return oracle::checkOctree(device.download(octree.nodes), levelsOf(octree), octree.grid.depth);
+    return oracle::checkOctree(octreeNodes(device, octree), levelsOf(octree), octree.grid.depth);
 }
 
 /// Unpacks an octahedral normal in floating point (Cigolle et al. 2014); 0 where there is none.

@@ -52,10 +52,18 @@ class TreeReader
 {
 public:
     TreeReader(vk::HeadlessDevice& device, const DeviceTree& tree)
-        : m_levels(tree.grid.nodeLevels()), m_nodes(device.download(tree.nodes)),
+        : m_levels(tree.grid.nodeLevels()), m_nodes(device.download(tree.nodes)), m_inner_count(tree.innerCount()),
           m_attributes(device.download(tree.voxel_attributes)), m_averages(device.download(tree.node_attributes)),
           m_emission_words(device.download(tree.emission_words)), m_emission(device.download(tree.emission))
     {
+        m_attribute_offset = tree.hasOverlays() ? tree.attributeOffset() : 0;
+        std::uint32_t voxels = 0;
+        for (std::uint32_t word = 2 * m_inner_count; word < tree.nodeWords(); ++word)
+        {
+            const gpu::uvec2 mask = wordAt(word);
+            m_leaves.push_back({mask.x, voxels, mask.y, voxels + static_cast<std::uint32_t>(std::popcount(mask.x))});
+            voxels += tree.isDag() ? 0 : static_cast<std::uint32_t>(std::popcount(mask.x) + std::popcount(mask.y));
+        }
         if (!tree.isDag())
         {
             return;
@@ -63,22 +71,26 @@ public:
         m_before = device.download(tree.lists.before);
         m_voxels_before_leaf = device.download(tree.lists.voxels_before_leaf);
         m_entries_per_word = tree.lists.entries_per_word;
-        m_first_entry = std::uint64_t{2} * tree.node_count * m_entries_per_word;
+        m_first_entry = tree.nodeWords() * m_entries_per_word;
         m_long_count = tree.lists.long_entry_count;
         m_first_overlay_node = static_cast<std::uint32_t>(m_nodes.size());
         if (tree.hasOverlays())
         {
             m_ranks = device.download(tree.overlays.ranks);
             m_first_overlay_node = tree.overlays.static_root + 1;
-            m_attribute_offset = tree.attributeOffset();
         }
     }
 
-    [[nodiscard]] const gpu::Node& node(const NodeOnPath& place) const { return m_nodes.at(place.node); }
+    [[nodiscard]] const gpu::Node& node(const NodeOnPath& place) const
+    {
+        return isLeafWord(place) ? m_leaves.at(leafOf(place)) : m_nodes.at(place.node);
+    }
 
     [[nodiscard]] gpu::Attribute average(const NodeOnPath& place) const
     {
-        const std::uint32_t own = place.node == 0 ? 0 : place.node + m_attribute_offset;
+        const bool is_static = place.node < m_inner_count;
+        const std::uint32_t own =
+            isLeafWord(place) ? m_inner_count + leafOf(place) : place.node + (is_static ? 0 : m_attribute_offset);
         return m_averages.empty() ? gpu::Attribute{} : m_averages.at(place.listed ? place.rank.nodes : own);
     }
 
@@ -90,9 +102,9 @@ public:
         child.node = named(parent, c);
         if ((child.node & gpu::kChildList) != 0)
         {
-            const std::uint64_t place = child.node & ~gpu::kChildList;
+            const std::uint64_t place = child.node & ~gpu::kListFlags;
             child.rank = rankAt(parent, place, level);
-            child.node = oracle::entryAt(m_nodes, place, m_entries_per_word);
+            child.node = oracle::entryAt(m_nodes, place, m_entries_per_word) | (child.node & gpu::kLeafWords);
             child.listed = true;
         }
         return child;
@@ -117,6 +129,17 @@ public:
     }
 
 private:
+    static bool isLeafWord(const NodeOnPath& place) { return (place.node & gpu::kLeafWords) != 0; }
+    [[nodiscard]] std::uint32_t leafOf(const NodeOnPath& place) const
+    {
+        return (place.node & ~gpu::kLeafWords) - 2 * m_inner_count;
+    }
+    [[nodiscard]] gpu::uvec2 wordAt(std::uint32_t word) const
+    {
+        const gpu::Node& pair = m_nodes.at(word / 2);
+        return word % 2 == 0 ? gpu::uvec2(pair.mask_lo, pair.base_lo) : gpu::uvec2(pair.mask_hi, pair.base_hi);
+    }
+
     // The child's number that the node's bases give for cell c: base + children before it.
     [[nodiscard]] std::uint32_t named(const NodeOnPath& place, std::uint32_t c) const
     {
@@ -142,13 +165,15 @@ private:
         {
             const std::uint64_t entry = place - m_first_entry - m_long_count;
             before.voxels = m_voxels_before_leaf.at(entry / 2) >> 16 * (entry % 2) & 65535;
-            before.nodes = static_cast<std::uint32_t>(place) - (node(parent).base_lo & ~gpu::kChildList);
+            before.nodes = static_cast<std::uint32_t>(place) - (node(parent).base_lo & ~gpu::kListFlags);
         }
         return {rank.voxels + before.voxels, rank.nodes + 1 + before.nodes};
     }
 
     std::uint32_t m_levels;
     std::vector<gpu::Node> m_nodes;
+    std::uint32_t m_inner_count;
+    std::vector<gpu::Node> m_leaves; // the leaf words as nodes
     std::vector<gpu::Attribute> m_attributes;
     std::vector<gpu::Attribute> m_averages;
     std::vector<gpu::uvec2> m_emission_words;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "support/relocate.h"
 
+#include "support/octree_access.h"
+
 #include <bit>
 #include <random>
 #include <span>
@@ -117,7 +119,7 @@ void gatherEmission(vk::HeadlessDevice& device, const DeviceTree& octree,
 
 DeviceTree relocate(vk::HeadlessDevice& device, const DeviceTree& octree, const RelocateOptions& options)
 {
-    const std::vector<gpu::Node> originals = device.download(octree.nodes);
+    const std::vector<gpu::Node> originals = octreeNodes(device, octree);
     const std::uint32_t level_count = octree.grid.nodeLevels();
     std::mt19937 random(options.gap + options.touched_percent);
     std::vector<gpu::Node> nodes(originals);

@@ -45,10 +45,7 @@ void recordFind(vk::FrameGraph& graph, const DeviceTree& tree, const gpu::EditSl
                                                   .stamp = stamp.count() != 0});
     gpu::EditFindParams params{};
     params.nodes = pass.read(tree.nodes);
-    if (tree.overlays.hasRanks())
-    {
-        readRankSource(pass, tree, params);
-    }
+    readRankSource(pass, tree, params);
     params.ranks = {pass.read(tree.overlays.ranks).address - tree.overlays.ranksSkipped()};
     params.cells = pass.write(buffers.cells);
     params.stamp = pass.read(stamp);
@@ -86,10 +83,7 @@ void recordNodes(vk::FrameGraph& graph, EditSite& site, const gpu::Brush& brush,
     gpu::EditNodesParams params{};
     params.nodes = pass.readWrite(tree.nodes);
     params.node_attributes = pass.readWrite(tree.node_attributes);
-    if (tree.overlays.hasRanks())
-    {
-        readRankSource(pass, tree, params);
-    }
+    readRankSource(pass, tree, params);
     params.ranks = ranksOf(pass, tree);
     params.cells = pass.readWrite(buffers.cells);
     params.states = pass.read(site.states);

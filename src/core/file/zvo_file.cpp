@@ -2,6 +2,7 @@
 #include "core/file/zvo_file.h"
 
 #include "core/base/crc64.h"
+#include "core/tree/leaf_words.h"
 
 #include <algorithm>
 #include <bit>
@@ -35,7 +36,7 @@ struct Content
 };
 
 template <typename T>
-void addContent(std::vector<Content>& contents, ZvoSectionId id, const std::vector<T>& values,
+void addContent(std::vector<Content>& contents, ZvoSectionId id, std::span<const T> values,
                 ZvoFormat format = ZvoFormat::Plain)
 {
     if (values.empty())
@@ -43,13 +44,20 @@ void addContent(std::vector<Content>& contents, ZvoSectionId id, const std::vect
         return;
     }
     Content& content = contents.emplace_back();
-    content.bytes = std::as_bytes(std::span(values));
+    content.bytes = std::as_bytes(values);
     content.section.id = static_cast<std::uint32_t>(id);
     content.section.format = static_cast<std::uint32_t>(format);
     content.section.flags = kZvoMustUnderstand;
     content.section.bytes = content.bytes.size();
     content.section.count = values.size() / valuesPerElement(format);
     content.section.checksum = crc64(content.bytes);
+}
+
+template <typename T>
+void addContent(std::vector<Content>& contents, ZvoSectionId id, const std::vector<T>& values,
+                ZvoFormat format = ZvoFormat::Plain)
+{
+    addContent(contents, id, std::span<const T>(values), format);
 }
 
 ZvoHeader headerOf(const TreeData& tree)
@@ -88,7 +96,8 @@ std::string sectionName(std::uint32_t id)
                                       "attributes of voxels",
                                       "attributes of nodes",
                                       "words of the emission table",
-                                      "emissions"};
+                                      "emissions",
+                                      "leaves"};
     return id != 0 && id <= std::size(kNames) ? kNames[id - 1] : fmt::format("section {}", id);
 }
 
@@ -122,7 +131,9 @@ void writeZvo(const TreeData& tree, const std::function<void(std::span<const std
     }
     std::vector<Content> contents;
     addContent(contents, ZvoSectionId::Levels, levels);
-    addContent(contents, ZvoSectionId::Nodes, tree.nodes);
+    const std::span<const gpu::Node> nodes = tree.nodes;
+    const std::uint32_t leaf_count = leafWordsOf(tree.levels);
+    addContent(contents, ZvoSectionId::Nodes, nodes.first(nodes.size() - leaf_count));
     const std::vector<std::uint64_t> list_words = packEntries(tree.lists, tree.packing().per_word);
     addContent(contents, ZvoSectionId::Lists, list_words);
     addContent(contents, ZvoSectionId::Before, tree.before);
@@ -133,6 +144,9 @@ void writeZvo(const TreeData& tree, const std::function<void(std::span<const std
     addContent(contents, ZvoSectionId::NodeAttributes, tree.packed.nodes, zvoFormat(nodeFormat(tree.packed.format)));
     addContent(contents, ZvoSectionId::EmissionWords, tree.emission_words);
     addContent(contents, ZvoSectionId::Emission, tree.emission);
+    std::vector<std::uint64_t> leaves(leaf_count);
+    std::ranges::transform(nodes.last(leaf_count), leaves.begin(), cellMask);
+    addContent(contents, ZvoSectionId::Leaves, leaves);
 
     std::uint64_t end = sizeof(ZvoHeader) + contents.size() * sizeof(ZvoSection);
     std::vector<ZvoSection> table;

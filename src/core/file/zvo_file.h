@@ -25,7 +25,7 @@ namespace zvo
 inline constexpr std::array<char, 8> kZvoMagic = {'\x8a', 'Z', 'V', 'O', '\r', '\n', '\x1a', '\n'};
 
 inline constexpr std::uint32_t kZvoByteOrder = 0x01020304U;
-inline constexpr std::uint16_t kZvoVersionMajor = 1; // readers refuse others
+inline constexpr std::uint16_t kZvoVersionMajor = 2; // readers refuse later ones
 inline constexpr std::uint16_t kZvoVersionMinor = 0; // readers accept others
 inline constexpr std::uint64_t kZvoAlignment = 64;   // of sections, in bytes
 inline constexpr std::uint32_t kZvoSectionsMax = 1024;
@@ -34,7 +34,7 @@ inline constexpr std::uint32_t kZvoSectionsMax = 1024;
 enum class ZvoSectionId : std::uint32_t
 {
     Levels = 1,           ///< number of nodes of each level, 64-bit
-    Nodes = 2,            ///< gpu::Node
+    Nodes = 2,            ///< gpu::Node; of trees of several levels without the leaves, since version 2
     Lists = 3,            ///< 32-bit
     Before = 4,           ///< gpu::BeforeChild
     VoxelsBeforeLeaf = 5, ///< 16-bit, two to a word
@@ -42,6 +42,7 @@ enum class ZvoSectionId : std::uint32_t
     NodeAttributes = 7,   ///< as ZvoFormat says
     EmissionWords = 8,    ///< two 32-bit words for 32 voxels
     Emission = 9,         ///< RGB9E5
+    Leaves = 10,          ///< masks, 64-bit
 };
 
 /// How the elements of a section are laid out. All formats but Plain are for attributes only.

@@ -6,6 +6,7 @@
 #include "core/base/read_file.h"
 #include "core/file/tree_check.h"
 #include "core/file/zvo_file.h"
+#include "core/tree/leaf_words.h"
 
 #include <algorithm>
 #include <bit>
@@ -42,6 +43,7 @@ public:
         failUnless(m_end == m_file.header.file_bytes, "the last section ends at byte {} of {}", m_end,
                    m_file.header.file_bytes);
         requireSections();
+        appendLeaves(m_leaves, m_file.tree);
         requireNone(checkTree(m_file.tree));
         return std::move(m_file);
     }
@@ -82,9 +84,9 @@ private:
             failUnless(swapped, "its byte order is unknown ({:#010x})", header.byte_order);
             fail("its numbers are big-endian, those of .zvo files are little-endian; convert it again");
         }
-        if (header.version_major != kZvoVersionMajor)
+        if (header.version_major == 0 || header.version_major > kZvoVersionMajor)
         {
-            fail(fmt::format("version {}.{} of the format, this program reads version {}; use a matching zvo",
+            fail(fmt::format("version {}.{} of the format, this program reads versions 1 to {}; use a matching zvo",
                              header.version_major, header.version_minor, kZvoVersionMajor));
         }
         failUnless(header.header_checksum == headerChecksum(header), "the header does not match its checksum");
@@ -189,7 +191,7 @@ private:
         case ZvoSectionId::Levels:
             return readLevels(section);
         case ZvoSectionId::Nodes:
-            return readArray(section, tree.nodes, header.node_count);
+            return readArray(section, tree.nodes, header.node_count - leafCount());
         case ZvoSectionId::Lists:
             return readLists(section);
         case ZvoSectionId::Before:
@@ -204,8 +206,16 @@ private:
             return readArray(section, tree.emission_words, divideUp(header.voxel_count, gpu::kVoxelsPerEmissionWord));
         case ZvoSectionId::Emission:
             return readArray(section, tree.emission, section.count);
+        case ZvoSectionId::Leaves:
+            return readArray(section, m_leaves, leafCount());
         }
         skip(section);
+    }
+
+    // Leaves that have a section of their own.
+    [[nodiscard]] std::uint32_t leafCount() const
+    {
+        return m_file.header.version_major == 1 ? 0 : leafWordsOf(m_file.tree.levels);
     }
 
     // What this version does not know.
@@ -302,7 +312,7 @@ private:
     void readLists(const ZvoSection& section)
     {
         const ZvoHeader& header = m_file.header;
-        const ListPacking packing = ListPacking::tightest(header.node_count, header.entry_count);
+        const ListPacking packing = ListPacking::tightest(header.node_count, 0, header.entry_count);
         std::vector<std::uint64_t> words;
         readArray(section, words, packing.wordCount());
         m_file.tree.lists = unpackEntries(words, packing.entry_count, packing.per_word);
@@ -317,14 +327,16 @@ private:
         const TreeData& tree = m_file.tree;
         const auto require = [this](ZvoSectionId id, std::size_t have, std::uint64_t wanted)
         { failUnless(have == wanted, "{} are missing", sectionName(static_cast<std::uint32_t>(id))); };
-        require(ZvoSectionId::Nodes, tree.nodes.size(), header.node_count);
+        require(ZvoSectionId::Nodes, tree.nodes.size(), header.node_count - leafCount());
+        require(ZvoSectionId::Leaves, m_leaves.size(), leafCount());
         require(ZvoSectionId::Lists, tree.lists.size(), header.entry_count);
     }
 
     ByteSource& m_source;
     const std::filesystem::path& m_path;
     ZvoFile m_file;
-    std::uint64_t m_end = 0; // of what was read
+    std::vector<std::uint64_t> m_leaves; // of a tree whose nodes are without them
+    std::uint64_t m_end = 0;             // of what was read
 };
 
 } // namespace

@@ -3,6 +3,7 @@
 
 #include "core/base/divide_up.h"
 #include "core/base/lanes.h"
+#include "core/tree/leaf_words.h"
 
 namespace zvo
 {
@@ -181,8 +182,11 @@ void averageNodes(vk::FrameGraph& graph, const GpuScene& scene, DeviceTree& octr
                        .nodes = pass.read(octree.nodes),
                        .children = is_leaf ? pass.read(octree.voxel_attributes) : pass.read(octree.node_attributes),
                        .averages = pass.readWrite(octree.node_attributes),
+                       .leaf_groups = pass.read(octree.leaf_groups),
                        .first_node = first_node,
-                       .node_count = node_count});
+                       .node_count = node_count,
+                       .reference = is_leaf ? octree.leafReference() : 0,
+                       .child_reference = level + 1 == octree.levels.size() ? octree.leafReference() : 0});
     }
     if (level == 0)
     {
@@ -202,8 +206,25 @@ void averageNodes(vk::FrameGraph& graph, const GpuScene& scene, DeviceTree& octr
     {
         params.levels[i] = {octree.levels[i].first_node, octree.levels[i].node_count};
     }
+    params.leaf_groups = pass.read(octree.leaf_groups);
     params.level_count = static_cast<gpu::uint>(level);
+    params.leaf_level = static_cast<gpu::uint>(octree.levels.size() - 1);
+    params.leaf_reference = octree.leafReference();
     pass.dispatch(threads, params);
+}
+
+void makeLeafWords(vk::FrameGraph& graph, const DeviceTree& octree, vk::BufferOf<gpu::Node>& pool,
+                   vk::BufferOf<gpu::uvec2>& leaf_groups)
+{
+    const auto [first_leaf, leaf_count] = octree.levels.back();
+    vk::Pass pass = graph.addPass(gpu::octree::LeafWords{});
+    pass.dispatch(octree.node_count, {.from = pass.read(octree.nodes),
+                                      .to = pass.write(pool),
+                                      .leaf_groups = pass.write(leaf_groups),
+                                      .inner_count = first_leaf,
+                                      .leaf_count = leaf_count,
+                                      .first_parent = octree.levels[octree.levels.size() - 2].first_node,
+                                      .attribute_offset = firstLeafGroup(first_leaf, leaf_count).y});
 }
 
 } // namespace zvo

@@ -46,4 +46,9 @@ void numberNodes(vk::FrameGraph& graph, vk::BufferOf<gpu::BrickEntry>& table, Oc
 /// level, and one for the root's children and the root. Cost: nodes.
 void averageNodes(vk::FrameGraph& graph, const GpuScene& scene, DeviceTree& octree);
 
+/// Records the pass that copies the nodes of an octree of several levels, whose leaves are nodes, to a pool with leaf
+/// words and its leaf groups (shaders/shared/octree.h).
+void makeLeafWords(vk::FrameGraph& graph, const DeviceTree& octree, vk::BufferOf<gpu::Node>& pool,
+                   vk::BufferOf<gpu::uvec2>& leaf_groups);
+
 } // namespace zvo

@@ -3,6 +3,7 @@
 
 #include "core/base/divide_up.h"
 #include "core/base/tuning.h"
+#include "core/tree/leaf_words.h"
 #include "core/tree/tree_limits.h"
 #include "zvo/error.h"
 
@@ -324,6 +325,10 @@ std::uint32_t OctreeBuilder::addLevels(std::uint32_t count)
 void OctreeBuilder::number(vk::FrameGraph& graph)
 {
     numberNodes(graph, m_coverings->voxelize.bricks, m_coverings->work, m_result.octree, m_result.octree.levels.size());
+    if (!m_options.attributes)
+    {
+        addLeafWords(graph);
+    }
 }
 
 void OctreeBuilder::endNumbers()
@@ -423,6 +428,29 @@ void OctreeBuilder::average(vk::FrameGraph& graph)
         octree.node_attributes = {m_device, "octree/node_attributes", octree.node_count};
     }
     averageNodes(graph, m_scene.uploaded(), octree);
+    addLeafWords(graph);
+}
+
+// While it is made, an octree's leaves are nodes, which tell the fragments where their voxels are.
+void OctreeBuilder::addLeafWords(vk::FrameGraph& graph)
+{
+    DeviceTree& octree = m_result.octree;
+    const std::uint32_t leaf_words = leafWordsOf(octree.levels);
+    if (leaf_words == 0)
+    {
+        return;
+    }
+    if (m_pool.count() == 0)
+    {
+        const std::uint64_t pool_nodes =
+            divideUp(std::uint64_t{2} * octree.node_count - leaf_words, ListPacking::kWordsOfNode);
+        const std::uint64_t group_count =
+            1 + divideUp(std::uint64_t{2} * octree.node_count - leaf_words, gpu::kLeafGroup);
+        m_device.memory().require(pool_nodes * sizeof(gpu::Node) + group_count * sizeof(gpu::uvec2), "the leaves");
+        octree.leaf_groups = {m_device, "octree/leaf_groups", group_count};
+        m_pool = {m_device, octree.nodes.name(), pool_nodes};
+    }
+    makeLeafWords(graph, octree, m_pool, octree.leaf_groups);
 }
 
 void OctreeBuilder::coverByBricks(vk::FrameGraph& graph)
@@ -527,6 +555,11 @@ void OctreeBuilder::end()
 {
     m_bricks.reset();
     m_coverings.reset();
+    if (m_pool.count() != 0)
+    {
+        m_result.octree.nodes = std::move(m_pool);
+        m_result.octree.leaf_words = m_result.octree.levels.back().node_count;
+    }
     finish();
 }
 

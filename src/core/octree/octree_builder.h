@@ -121,6 +121,7 @@ private:
     void emission(vk::FrameGraph& graph);
     void endVoxelAttributes();
     void average(vk::FrameGraph& graph);
+    void addLeafWords(vk::FrameGraph& graph);
     void end();
 
     vk::Device& m_device;
@@ -137,6 +138,7 @@ private:
     std::uint32_t m_summed_voxels = 0; // those of bricks with several units
     std::optional<Bricks> m_bricks;
     std::uint32_t m_emissive_count = 0;
+    vk::BufferOf<gpu::Node> m_pool; // takes the place of the nodes in the end
     ReadbackOffsets m_offsets;
 };
 

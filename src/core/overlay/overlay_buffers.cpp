@@ -35,8 +35,7 @@ DeviceTree adopted(DeviceTree&& tree)
     tree.lists.octree_node_count = std::max(tree.lists.octree_node_count, 1U);
     tree.node_count = std::max(tree.node_count, 1U);
     tree.levels.clear();
-    const std::uint32_t nodes = tree.isDag() ? static_cast<std::uint32_t>(tree.nodes.count()) : tree.node_count;
-    tree.overlays.static_root = std::max(nodes, 1U);
+    tree.overlays.static_root = std::max(static_cast<std::uint32_t>(tree.nodes.count()), 1U);
     return std::move(tree);
 }
 

@@ -47,13 +47,9 @@ gpu::PathView viewOf(const Grid& grid, const TraceCamera& camera, const PathOpti
     return {camera.rays, width, height, options.seed, options.lens_radius * unit, options.focus_distance * unit};
 }
 
-// Declares that pass reads the ranks of a DAG with attributes.
+// Declares that pass reads what the indices of attributes come from.
 void readRanks(vk::AnyPass& pass, const DeviceTree& tree)
 {
-    if (!tree.isDag() || !tree.hasAttributes() || tree.grid.nodeLevels() < 2)
-    {
-        return;
-    }
     rankSource(pass, tree);
     if (tree.hasOverlays())
     {

@@ -3,6 +3,7 @@
 
 #include "core/base/divide_up.h"
 #include "core/base/lanes.h"
+#include "core/tree/leaf_words.h"
 #include "core/tree/tree_limits.h"
 #include "vk/device.h"
 #include "zvo/error.h"
@@ -25,9 +26,10 @@ constexpr std::uint64_t kSlotsPerNodeMax = 16;   // with more, only equal hashes
 
 [[noreturn]] void throwTooBig(const ListPacking& packing)
 {
-    throw Error(ErrorCode::Memory, fmt::format("the DAG has {} nodes and {} entries of lists, more than numbers of 31 "
-                                               "bits tell apart; lower the resolution",
-                                               packing.node_count, packing.entry_count));
+    throw Error(ErrorCode::Memory,
+                fmt::format("the DAG has {} words of nodes and {} entries of lists, more than numbers "
+                            "of 30 bits tell apart; lower the resolution",
+                            packing.node_words, packing.entry_count));
 }
 
 void requireCountable(std::span<const std::uint64_t> slot_counts)
@@ -75,7 +77,8 @@ void allocatePool(vk::Device& device, const Candidates& candidates, const gpu::C
         dag.levels.push_back({sizes.first_nodes[level], end - sizes.first_nodes[level]});
     }
     dag.lists.long_entry_count = level_count < 2 ? 0 : sizes.first_entries[level_count - 2];
-    ListPacking packing = ListPacking::tightest(sizes.node_count, sizes.entry_count);
+    dag.leaf_words = leafWordsOf(dag.levels);
+    ListPacking packing = ListPacking::tightest(dag.nodeWords(), dag.nodeWords(), sizes.entry_count);
     packing.per_word = std::min(packing.per_word, per_word_max);
     dag.lists.entries_per_word = packing.per_word;
     if (!packing.fits())
@@ -102,8 +105,9 @@ void writeLevel(vk::FrameGraph& graph, const Candidates& candidates, std::size_t
     if (level + 1 == dag.levels.size())
     {
         vk::Pass pass = graph.addPass(gpu::svdag::Leaves{});
-        const gpu::UniqueLeavesParams params = {pass.read(candidates.tree.nodes), pass.read(classes.table),
-                                                pass.write(dag.nodes), first_node, node_count};
+        const gpu::UniqueLeavesParams params = {
+            pass.read(candidates.tree.nodes), pass.read(classes.table), pass.write(dag.nodes), first_node, node_count,
+            candidates.reference(level)};
         pass.dispatch(node_count, params);
         return;
     }
@@ -127,6 +131,8 @@ void writeLevel(vk::FrameGraph& graph, const Candidates& candidates, std::size_t
     params.node_count = node_count;
     params.first_index = static_cast<std::uint32_t>(dag.packing().firstEntry());
     params.long_entry_count = static_cast<std::uint32_t>(dag.lists.long_entry_count);
+    params.child_reference = candidates.reference(level + 1);
+    params.leaf_reference = above_leaves ? dag.leafReference() : 0;
     pass.dispatch(node_count, params);
 }
 
@@ -135,7 +141,7 @@ void writePool(vk::FrameGraph& graph, const Candidates& candidates, const ClassB
 {
     if (dag.lists.entry_count != 0)
     {
-        graph.fill(dag.nodes, 0, dag.node_count * (sizeof(gpu::Node) / sizeof(gpu::uint)));
+        graph.fill(dag.nodes, 0, 2 * dag.nodeWords());
     }
     graph.fill(dag.lists.voxels_before_leaf, 0);
     for (std::size_t level = dag.levels.size(); level-- > 0;)
@@ -175,6 +181,7 @@ void orderDepthFirst(vk::FrameGraph& graph, const DeviceTree& octree, ClassBuffe
         params.ranks = pass.readWrite(ranks);
         params.first_node = first_node;
         params.node_count = node_count;
+        params.child_reference = above_leaves ? octree.leafReference() : 0;
         pass.dispatch(std::uint64_t{node_count} * lanes, params);
     }
 }

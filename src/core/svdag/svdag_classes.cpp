@@ -49,7 +49,8 @@ void findClassesOf(vk::FrameGraph& graph, const Candidates& candidates, std::siz
                                    .hashes = pass.write(buffers.hashes),
                                    .first_node = first_node,
                                    .node_count = node_count,
-                                   .hash_mask = candidates.hash_mask});
+                                   .hash_mask = candidates.hash_mask,
+                                   .child_reference = candidates.reference(level + 1)});
     }
     {
         vk::Pass pass = graph.addPass(gpu::svdag::Insert{.entries_per_word = per_word, .leaves = are_leaves});
@@ -62,7 +63,9 @@ void findClassesOf(vk::FrameGraph& graph, const Candidates& candidates, std::siz
                                    .node_count = node_count,
                                    .first_slot = static_cast<std::uint32_t>(slotTotal(slot_counts.first(level))),
                                    .slot_mask = static_cast<std::uint32_t>(slot_counts[level] - 1),
-                                   .level = static_cast<std::uint32_t>(level)});
+                                   .level = static_cast<std::uint32_t>(level),
+                                   .reference = candidates.reference(level),
+                                   .child_reference = candidates.reference(level + 1)});
     }
     vk::Pass pass = graph.addPass(gpu::svdag::Resolve{});
     const gpu::ClassResolveParams params = {pass.readWrite(buffers.classes), pass.read(buffers.table), first_node,

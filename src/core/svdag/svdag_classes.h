@@ -23,6 +23,12 @@ struct Candidates
     [[nodiscard]] const std::vector<DeviceTree::Level>& levels() const { return tree.levels; }
     [[nodiscard]] std::uint32_t count() const { return tree.node_count; }
     [[nodiscard]] std::uint32_t innerCount() const { return tree.levels.back().first_node; }
+
+    /// From the number of a node of a level, or of its children, to the reference (shaders/shared/octree.h).
+    [[nodiscard]] std::uint32_t reference(std::size_t level) const
+    {
+        return level + 1 == tree.levels.size() ? tree.leafReference() : 0;
+    }
 };
 
 /// The number of slots in the table of classes for each level: powers of two. at_first: the number for every level; 0:

@@ -100,6 +100,7 @@ void tracePrimary(vk::FrameGraph& graph, const DeviceTree& tree, const NodePaths
     const auto declare = [&](vk::AnyPass& pass)
     {
         auto params = common(pass, gpu::PrimaryParams{});
+        params.leaf_groups = readLeafGroups(pass, tree);
         params.iterations = count_iterations ? pass.readWrite(buffers.light) : gpu::Ptr<gpu::uint>{};
         params.detail = detailOf(options, &camera);
         return params;
@@ -142,6 +143,7 @@ void traceRays(vk::FrameGraph& graph, const DeviceTree& tree, const vk::BufferOf
     {
         gpu::RaysParams params{};
         params.nodes = pass.read(tree.nodes);
+        params.leaf_groups = readLeafGroups(pass, tree);
         params.rays = pass.read(rays);
         params.hits = pass.readWrite(hits);
         params.status = pass.readWrite(status);

@@ -33,8 +33,8 @@ bool standsByLevels(const DeviceTree& tree)
         return false;
     }
     const DeviceTree::Level& last = tree.levels.back();
-    const std::uint64_t node_count = tree.isDag() ? tree.node_count : tree.nodes.count();
-    return std::uint64_t{last.first_node} + last.node_count == node_count;
+    const bool has_all_nodes = std::uint64_t{last.first_node} + last.node_count == tree.node_count;
+    return has_all_nodes && (tree.isDag() || tree.nodes.count() == tree.packing().poolNodes());
 }
 
 bool usesPaths(const DeviceTree& tree, const TraceOptions& options)

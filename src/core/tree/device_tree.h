@@ -76,13 +76,14 @@ struct DeviceTree
     TreeStructure structure = TreeStructure::Svo;
     Grid grid;
     std::uint32_t node_count = 0;  // without overlays
+    std::uint32_t leaf_words = 0;  // of the nodes, those that are leaf words: all leaves of a tree of several levels
     std::uint32_t voxel_count = 0; // likewise
     std::vector<Level> levels; // grid.nodeLevels() of them; empty without voxels, or if nodes do not stand by levels
 
-    /// [node_count] nodes of an octree. Of a DAG the pool: as many elements as nodes and lists take. With room for
-    /// overlays: a slot for the root that is traced, the other static nodes and the lists, the static root, then
-    /// overlays.
+    /// As many elements as nodes, leaf words and lists take. With room for overlays: a slot for the root that is
+    /// traced, the other static nodes and the lists, the static root, then overlays.
     vk::BufferOf<gpu::Node> nodes;
+    vk::BufferOf<gpu::uvec2> leaf_groups;          // [leafGroupCount()] of an octree with leaf words
     vk::BufferOf<gpu::Attribute> voxel_attributes; // [voxel_count] in Morton order, then those of overlays; or empty
     /// [octreeNodeCount()] averages of the attributes below each node, or empty. Those of a DAG stand depth first: a
     /// node before its children, children in Morton order. With room for overlays: that of the slot, those of the other
@@ -108,8 +109,15 @@ struct DeviceTree
     [[nodiscard]] bool hasAttributes() const { return attributeFormat() != AttributeFormat::None; }
     [[nodiscard]] bool hasNodeAttributes() const { return node_attributes.count() + packed.nodes.count() != 0; }
 
+    /// The number of the first leaf that is a leaf word; the words of 64 bits before the lists; the elements of
+    /// leaf_groups; what, added to the number of a leaf, gives its reference (shaders/shared/octree.h).
+    [[nodiscard]] std::uint32_t innerCount() const { return node_count - leaf_words; }
+    [[nodiscard]] std::uint64_t nodeWords() const { return std::uint64_t{2} * node_count - leaf_words; }
+    [[nodiscard]] std::uint64_t leafGroupCount() const { return 1 + divideUp(nodeWords(), gpu::kLeafGroup); }
+    [[nodiscard]] std::uint32_t leafReference() const { return leaf_words != 0 ? gpu::kLeafWords + innerCount() : 0; }
+
     /// How the lists of a DAG are packed.
-    [[nodiscard]] ListPacking packing() const { return {node_count, lists.entry_count, lists.entries_per_word}; }
+    [[nodiscard]] ListPacking packing() const { return {nodeWords(), lists.entry_count, lists.entries_per_word}; }
 
     /// Number of nodes of the octree; for a DAG, of the octree that it stands for.
     [[nodiscard]] std::uint32_t octreeNodeCount() const { return isDag() ? lists.octree_node_count : node_count; }
@@ -121,10 +129,10 @@ struct DeviceTree
     /// attributes; modulo 2^32.
     [[nodiscard]] std::uint32_t attributeOffset() const { return octreeNodeCount() - overlays.static_root; }
 
-    /// Bytes of nodes and lists, without overlays.
+    /// Bytes of nodes, leaf groups and lists, without overlays.
     [[nodiscard]] std::uint64_t geometryBytes() const
     {
-        return std::uint64_t{node_count} * sizeof(gpu::Node) + (isDag() ? packing().bytes() : 0);
+        return nodeWords() * sizeof(std::uint64_t) + leaf_groups.bytes() + (isDag() ? packing().bytes() : 0);
     }
 
     /// Bytes of all attributes and emission, overlays included; without ChildLists::rankBytes().
@@ -135,17 +143,18 @@ struct DeviceTree
     }
 };
 
-/// The arrays of a DAG with attributes from which ranks are summed up. Declares that pass reads them.
-gpu::RankSource rankSource(vk::AnyPass& pass, const DeviceTree& dag);
+/// The arrays of a DAG with attributes from which ranks are summed up; of an octree, the leaf groups. Declares that
+/// pass reads them.
+gpu::RankSource rankSource(vk::AnyPass& pass, const DeviceTree& tree);
 
 /// The same, without declaring any access.
-gpu::RankSource rankSource(const DeviceTree& dag);
+gpu::RankSource rankSource(const DeviceTree& tree);
 
 /// Declares that pass reads those arrays, and sets them in the parameters of a kernel that takes the pool apart from
 /// the others.
-template <typename Params> void readRankSource(vk::AnyPass& pass, const DeviceTree& dag, Params& params)
+template <typename Params> void readRankSource(vk::AnyPass& pass, const DeviceTree& tree, Params& params)
 {
-    const gpu::RankSource source = rankSource(pass, dag);
+    const gpu::RankSource source = rankSource(pass, tree);
     params.before = source.before;
     params.voxels_before_leaf = source.voxels_before_leaf;
     params.first_short_entry = source.first_short_entry;

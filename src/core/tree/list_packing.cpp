@@ -1,21 +1,20 @@
 // SPDX-License-Identifier: MIT
 #include "core/tree/list_packing.h"
 
-#include <array>
-#include <bit>
+#include <algorithm>
 #include <cassert>
 
 namespace zvo
 {
 
-ListPacking ListPacking::tightest(std::uint64_t node_count, std::uint64_t entry_count)
+ListPacking ListPacking::tightest(std::uint64_t number_end, std::uint64_t node_words, std::uint64_t entry_count)
 {
     std::uint32_t per_word = 4;
-    while (per_word > 2 && node_count > std::uint64_t{1} << gpu::kListWordBits / per_word)
+    while (per_word > 2 && number_end > std::uint64_t{1} << gpu::kListWordBits / per_word)
     {
         --per_word;
     }
-    return {node_count, entry_count, per_word};
+    return {node_words, entry_count, per_word};
 }
 
 std::vector<std::uint64_t> packEntries(std::span<const std::uint32_t> entries, std::uint32_t per_word)
@@ -44,29 +43,18 @@ std::vector<std::uint32_t> unpackEntries(std::span<const std::uint64_t> words, s
     return entries;
 }
 
-std::vector<gpu::Node> entriesToNodes(std::span<const std::uint32_t> entries, std::uint32_t per_word)
+std::vector<std::uint64_t> wordsOf(std::span<const gpu::Node> nodes)
 {
-    std::vector<std::uint64_t> words = packEntries(entries, per_word);
-    words.resize(divideUp(words.size(), ListPacking::kWordsOfNode) * ListPacking::kWordsOfNode);
-    std::vector<gpu::Node> nodes;
-    nodes.reserve(words.size() / ListPacking::kWordsOfNode);
-    for (std::size_t i = 0; i < words.size(); i += ListPacking::kWordsOfNode)
-    {
-        nodes.push_back(std::bit_cast<gpu::Node>(std::array{words[i], words[i + 1]}));
-    }
-    return nodes;
+    std::vector<std::uint64_t> words(nodes.size() * ListPacking::kWordsOfNode);
+    std::ranges::copy(std::as_bytes(nodes), std::as_writable_bytes(std::span(words)).begin());
+    return words;
 }
 
-std::vector<std::uint32_t> nodesToEntries(std::span<const gpu::Node> nodes, const ListPacking& packing)
+std::vector<gpu::Node> nodesOf(std::span<const std::uint64_t> words)
 {
-    std::vector<std::uint64_t> words;
-    words.reserve(nodes.size() * ListPacking::kWordsOfNode);
-    for (const gpu::Node& node : nodes)
-    {
-        const auto pair = std::bit_cast<std::array<std::uint64_t, ListPacking::kWordsOfNode>>(node);
-        words.insert(words.end(), pair.begin(), pair.end());
-    }
-    return unpackEntries(std::span(words).first(packing.wordCount()), packing.entry_count, packing.per_word);
+    std::vector<gpu::Node> nodes(divideUp(words.size(), ListPacking::kWordsOfNode));
+    std::ranges::copy(std::as_bytes(words), std::as_writable_bytes(std::span(nodes)).begin());
+    return nodes;
 }
 
 } // namespace zvo

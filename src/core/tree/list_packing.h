@@ -15,24 +15,24 @@ namespace zvo
 /// Where the entries of lists are in a DAG's pool.
 struct ListPacking
 {
-    std::uint64_t node_count = 0;
+    std::uint64_t node_words = 0; // of 64 bits, of nodes and leaf words
     std::uint64_t entry_count = 0;
-    std::uint32_t per_word = 2; // entries of a word of 64 bits: 2, 3 or 4
+    std::uint32_t per_word = 2; // entries of a word: 2, 3 or 4
 
-    /// The packing with as many entries to a word as the numbers of node_count nodes allow.
-    static ListPacking tightest(std::uint64_t node_count, std::uint64_t entry_count);
+    /// The packing with as many entries to a word as the numbers allow, which are all less than number_end.
+    static ListPacking tightest(std::uint64_t number_end, std::uint64_t node_words, std::uint64_t entry_count);
 
     /// Index of the first entry, counted as shaders/shared/svdag.h says.
-    [[nodiscard]] std::uint64_t firstEntry() const { return kWordsOfNode * node_count * per_word; }
+    [[nodiscard]] std::uint64_t firstEntry() const { return node_words * per_word; }
 
     /// The number of words of all entries, their bytes, and how many nodes take as much room as nodes and entries
     /// together.
     [[nodiscard]] std::uint64_t wordCount() const { return divideUp(entry_count, per_word); }
     [[nodiscard]] std::uint64_t bytes() const { return wordCount() * sizeof(std::uint64_t); }
-    [[nodiscard]] std::uint64_t poolNodes() const { return node_count + divideUp(wordCount(), kWordsOfNode); }
+    [[nodiscard]] std::uint64_t poolNodes() const { return divideUp(node_words + wordCount(), kWordsOfNode); }
 
     /// Whether the base of a node can hold the index of every entry.
-    [[nodiscard]] bool fits() const { return firstEntry() + wordCount() * per_word < gpu::kChildList; }
+    [[nodiscard]] bool fits() const { return firstEntry() + wordCount() * per_word < gpu::kLeafWords; }
 
     static constexpr std::uint64_t kWordsOfNode = sizeof(gpu::Node) / sizeof(std::uint64_t);
 };
@@ -42,8 +42,8 @@ std::vector<std::uint64_t> packEntries(std::span<const std::uint32_t> entries, s
 std::vector<std::uint32_t> unpackEntries(std::span<const std::uint64_t> words, std::uint64_t entry_count,
                                          std::uint32_t per_word);
 
-/// The same for a pool, where the words stand in elements of nodes.
-std::vector<gpu::Node> entriesToNodes(std::span<const std::uint32_t> entries, std::uint32_t per_word);
-std::vector<std::uint32_t> nodesToEntries(std::span<const gpu::Node> nodes, const ListPacking& packing);
+/// The words of a pool, and the elements that hold words, with zeros behind the last one.
+std::vector<std::uint64_t> wordsOf(std::span<const gpu::Node> nodes);
+std::vector<gpu::Node> nodesOf(std::span<const std::uint64_t> words);
 
 } // namespace zvo

@@ -3,6 +3,7 @@
 
 #include "core/base/divide_up.h"
 #include "core/base/morton.h"
+#include "core/tree/leaf_words.h"
 #include "core/tree/tree_limits.h"
 #include "vk/device.h"
 
@@ -27,21 +28,6 @@ template <typename T> vk::BufferOf<T> uploadVector(vk::Uploader& device, const c
     return values.empty() ? vk::BufferOf<T>() : device.makeBuffer(name, std::span(values));
 }
 
-// The nodes as they are in a buffer: for a DAG, with the lists behind them.
-vk::BufferOf<gpu::Node> uploadNodes(vk::Uploader& device, const TreeData& tree)
-{
-    if (tree.structure == TreeStructure::Svo || tree.nodes.empty())
-    {
-        return uploadVector(device, "octree/nodes", tree.nodes);
-    }
-    const ListPacking packing = tree.packing();
-    vk::BufferOf<gpu::Node> pool(device.device(), "svdag/pool", packing.poolNodes());
-    device.upload(pool, std::span(tree.nodes));
-    const std::vector<gpu::Node> lists = entriesToNodes(tree.lists, packing.per_word);
-    device.upload(pool, std::span(lists), tree.nodes.size());
-    return pool;
-}
-
 } // namespace
 
 const char* structureName(TreeStructure structure)
@@ -51,7 +37,12 @@ const char* structureName(TreeStructure structure)
 
 std::uint64_t TreeData::geometryBytes() const
 {
-    return bytesOf(nodes) + packing().bytes();
+    const std::uint32_t leaf_words = leafWordsOf(levels);
+    const std::uint64_t node_words = 2 * nodes.size() - leaf_words;
+    const bool has_groups = structure == TreeStructure::Svo && leaf_words != 0;
+    const std::uint64_t group_words = has_groups ? 1 + divideUp(node_words, gpu::kLeafGroup) : 0;
+    const std::uint64_t list_words = ListPacking::tightest(node_words, node_words, lists.size()).wordCount();
+    return (node_words + group_words + list_words) * sizeof(std::uint64_t);
 }
 
 std::uint64_t TreeData::rankBytes() const
@@ -69,12 +60,13 @@ DeviceTree uploadTree(vk::Uploader& device, const TreeData& tree)
 {
     requireIndexable(tree.packing().poolNodes(),
                      tree.hasAttributes() ? std::max(tree.voxel_count, tree.octree_node_count) : 0);
-    const std::uint64_t pool_bytes = tree.packing().poolNodes() * sizeof(gpu::Node);
-    device.device().memory().require(pool_bytes + tree.attributeBytes(), "the tree");
+    device.device().memory().require(tree.geometryBytes() + tree.attributeBytes(), "the tree");
+    TreePool pool = poolOf(tree);
     DeviceTree copy;
     copy.structure = tree.structure;
     copy.grid = tree.grid;
     copy.node_count = static_cast<std::uint32_t>(tree.nodes.size());
+    copy.leaf_words = pool.leaf_words;
     copy.voxel_count = tree.voxel_count;
     copy.levels = tree.levels;
     copy.voxel_attributes = uploadVector(device, "octree/voxel_attributes", tree.voxel_attributes);
@@ -84,10 +76,11 @@ DeviceTree uploadTree(vk::Uploader& device, const TreeData& tree)
     copy.emission_words = uploadVector(device, "octree/emission_words", tree.emission_words);
     copy.emission = uploadVector(device, "octree/emission", tree.emission);
     copy.emission_scale = tree.emission_scale;
-    copy.nodes = uploadNodes(device, tree);
+    copy.nodes = uploadVector(device, tree.structure == TreeStructure::Svo ? "octree/nodes" : "svdag/pool", pool.nodes);
+    copy.leaf_groups = uploadVector(device, "octree/leaf_groups", pool.leaf_groups);
     copy.lists = {tree.octree_node_count,
                   tree.lists.size(),
-                  tree.packing().per_word,
+                  pool.entries_per_word,
                   tree.long_entry_count,
                   uploadVector(device, "svdag/before", tree.before),
                   uploadVector(device, "svdag/voxels_before_leaf", tree.voxels_before_leaf)};

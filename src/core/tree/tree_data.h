@@ -19,8 +19,8 @@ const char* structureName(TreeStructure structure);
 /// The colour in which voxels without attributes are shown: sRGB red | green << 8 | blue << 16.
 inline constexpr std::uint32_t kPlainColor = 203 * 0x10101U;
 
-/// A whole octree or DAG in the host's memory, as files hold it. The arrays are those of a DeviceTree, except that the
-/// nodes and the lists of a DAG's pool are separate.
+/// A whole octree or DAG in the host's memory. The arrays are those of a DeviceTree, except that all leaves are nodes,
+/// and that the nodes and the lists of a DAG's pool are separate (core/tree/leaf_words.h).
 struct TreeData
 {
     TreeStructure structure = TreeStructure::Svo;
@@ -54,7 +54,7 @@ struct TreeData
                                         : voxel_attributes[voxel];
     }
 
-    /// Bytes, as in device memory and in files: of nodes and lists; of the arrays beside the lists from which ranks are
+    /// Bytes in device memory: of nodes, leaf groups and lists; of the arrays beside the lists from which ranks are
     /// summed up; of all attributes and emission, including those arrays.
     [[nodiscard]] std::uint64_t geometryBytes() const;
     [[nodiscard]] std::uint64_t rankBytes() const;
@@ -68,8 +68,11 @@ struct TreeData
                    : lists[(node.base_lo & ~gpu::kChildList) - packing().firstEntry() + rank];
     }
 
-    /// How the lists are packed in a pool and in files.
-    [[nodiscard]] ListPacking packing() const { return ListPacking::tightest(nodes.size(), lists.size()); }
+    /// How the lists are packed in files, where all leaves are numbered as nodes.
+    [[nodiscard]] ListPacking packing() const
+    {
+        return ListPacking::tightest(nodes.size(), ListPacking::kWordsOfNode * nodes.size(), lists.size());
+    }
 };
 
 /// The occupied cells of a node, a bit for each.

@@ -26,13 +26,9 @@ void setAttributes(const DeviceTree& octree, gpu::TreeTable& table)
 gpu::TreeTable treeTable(const DeviceTree& tree)
 {
     gpu::TreeTable table{};
-    table.source.pool = {tree.nodes.address()};
+    table.source = rankSource(tree);
     table.entries_per_word = tree.entriesPerWord();
     setAttributes(tree, table);
-    if (tree.isDag())
-    {
-        table.source = rankSource(tree);
-    }
     if (tree.overlays.hasRanks())
     {
         table.overlay_ranks = {tree.overlays.ranks.address() - tree.overlays.ranksSkipped()};
@@ -51,16 +47,11 @@ gpu::TreeTable treeTable(const DeviceTree& tree)
 gpu::ConstPtr<gpu::TreeTable> readTree(vk::AnyPass& pass, const DeviceTree& tree,
                                        const vk::BufferOf<gpu::TreeTable>& table)
 {
-    pass.read(tree.nodes);
+    rankSource(pass, tree);
     pass.read(tree.emission_words);
     pass.read(tree.emission);
     pass.read(tree.node_attributes);
     pass.read(tree.packed.nodes);
-    if (tree.isDag())
-    {
-        pass.read(tree.lists.before);
-        pass.read(tree.lists.voxels_before_leaf);
-    }
     if (tree.overlays.hasRanks())
     {
         pass.read(tree.overlays.ranks);

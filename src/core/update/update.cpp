@@ -54,12 +54,12 @@ gpu::ConstPtr<gpu::Layer> readLayers(vk::AnyPass& pass, const UpdateJob& job, co
     return pass.read(buffers.layers);
 }
 
-// Ranks in a DAG below overlays, of kernels that write nodes of overlays.
+// Ranks in a tree below overlays, of kernels that write nodes of overlays.
 template <typename Params> void readRanks(vk::AnyPass& pass, DeviceTree& tree, Params& params)
 {
+    readRankSource(pass, tree, params);
     if (tree.overlays.hasRanks())
     {
-        readRankSource(pass, tree, params);
         params.ranks = {pass.readWrite(tree.overlays.ranks).address - tree.overlays.ranksSkipped()};
     }
 }
@@ -216,6 +216,7 @@ template <typename Kernel> void addMergePass(vk::FrameGraph& graph, const Update
     params.links = pass.read(buffers.links);
     params.layers = readLayers(pass, job, buffers);
     params.nodes = pass.read(job.tree.nodes);
+    params.leaf_groups = pass.read(job.tree.leaf_groups);
     params.ranks = {pass.read(job.tree.overlays.ranks).address - job.tree.overlays.ranksSkipped()};
     params.attributes = pass.readWrite(job.tree.voxel_attributes);
     params.emission_words = pass.readWrite(job.tree.emission_words);

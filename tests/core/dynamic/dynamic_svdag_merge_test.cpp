@@ -183,7 +183,7 @@ TEST(DynamicSvdagMerge, MoreNodesThanKernelsReachAreRefused)
     {
         EXPECT_EQ(error.code(), ErrorCode::Memory);
         EXPECT_NE(
-            std::string(error.what()).find("more than the 1073741824 nodes or 2147483648 voxels that kernels reach"),
+            std::string(error.what()).find("more than the 536870912 nodes or 2147483648 voxels that kernels reach"),
             std::string::npos)
             << error.what();
     }

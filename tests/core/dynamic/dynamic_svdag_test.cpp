@@ -279,7 +279,8 @@ std::vector<std::array<std::uint32_t, gpu::kPathLevels>> pathsOf(const std::vect
         const std::uint32_t place = (c < 32 ? node.base_lo : node.base_hi) +
                                     static_cast<std::uint32_t>(std::popcount(mask & ((1U << c % 32) - 1)));
         const bool listed = (place & gpu::kChildList) != 0;
-        return listed ? oracle::entryAt(nodes, place & ~gpu::kChildList, entries_per_word) : place;
+        const std::uint32_t flags = listed ? place & gpu::kLeafWords : 0;
+        return listed ? flags | oracle::entryAt(nodes, place & ~gpu::kListFlags, entries_per_word) : place;
     };
     std::vector<std::array<std::uint32_t, gpu::kPathLevels>> paths(gpu::kRankTableFirst);
     for (std::uint32_t i = 0; i < gpu::kRankTableFirst; ++i)
@@ -321,7 +322,9 @@ TEST(DynamicSvdag, RaysBeginAtTheLowestNodesOfOverlaysAndOfTheDagBelow)
                           ASSERT_EQ(paths[i][0], node1 != 0 ? before + node1 : 0) << i;
                           ASSERT_EQ(paths[i][1], (words[i] >> 24 & 1) != 0 ? before + node2 : node2) << i;
                           ASSERT_EQ(paths[i][2], words[i] >> 32) << i;
-                          level3_counts.at(paths[i][2] > pair.dag().staticRoot() ? 0 : 1) += paths[i][2] != 0 ? 1 : 0;
+                          const bool of_dag =
+                              (paths[i][2] & gpu::kLeafWords) != 0 || paths[i][2] <= pair.dag().staticRoot();
+                          level3_counts.at(of_dag ? 1 : 0) += paths[i][2] != 0 ? 1 : 0;
                       }
                   });
         EXPECT_GT(level3_counts[0], 100U);

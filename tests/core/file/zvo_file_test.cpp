@@ -71,11 +71,11 @@ TEST(ZvoFile, BytesStandWhereTheDocumentSays)
     const TreeData tree = treeSample("random_5_with_attributes_dag");
     const Bytes file = zvoBytes(tree);
     EXPECT_EQ(std::memcmp(file.data(), "\x8aZVO\r\n\x1a\n\x04\x03\x02\x01", 12), 0);
-    EXPECT_EQ(at<std::uint16_t>(file, 12), 1);
+    EXPECT_EQ(at<std::uint16_t>(file, 12), 2);
     EXPECT_EQ(at<std::uint16_t>(file, 14), 0);
     EXPECT_EQ(at<std::uint32_t>(file, 16), 128U);
     const auto section_count = at<std::uint32_t>(file, 20);
-    EXPECT_EQ(section_count, 9U);
+    EXPECT_EQ(section_count, 10U);
     EXPECT_EQ(at<std::uint32_t>(file, 24), 2U);
     EXPECT_EQ(at<std::uint64_t>(file, 32), file.size());
     EXPECT_EQ(at<float>(file, 40), -3.5F);
@@ -90,7 +90,7 @@ TEST(ZvoFile, BytesStandWhereTheDocumentSays)
     EXPECT_EQ(at<std::uint64_t>(file, 112), crc64(std::span(file).subspan(128, section_count * 48)));
     EXPECT_EQ(at<std::uint64_t>(file, 120), crc64(std::span(file).first(120)));
     std::size_t end = 128 + section_count * 48;
-    const std::vector<std::uint32_t> widths = {8, 16, 8, 8, 4, 8, 8, 8, 4};
+    const std::vector<std::uint32_t> widths = {8, 16, 8, 8, 4, 8, 8, 8, 4, 8};
     for (std::uint32_t i = 0; i < section_count; ++i)
     {
         const std::size_t entry = 128 + std::size_t{48} * i;
@@ -233,7 +233,7 @@ const std::vector<FileFault>& fileFaults()
         {"Magic", set<char>(1, 'X'), "not a .zvo file"},
         {"BigEndian", set(8, 0x04030201U), "big-endian"},
         {"ByteOrder", set(8, 0x01020305U), "byte order is unknown"},
-        {"NewerVersion", set<std::uint16_t>(12, 2), "version 2.0 of the format, this program reads version 1"},
+        {"NewerVersion", set<std::uint16_t>(12, 3), "version 3.0 of the format, this program reads versions 1 to 2"},
         {"OlderVersion", set<std::uint16_t>(12, 0), "version 0.0"},
         {"HeaderChecksum", [](Bytes& file) { file[120] ^= std::byte{1}; }, "header does not match its checksum"},
         {"HeaderBytes", set(16, 136U), "header states another size"},
@@ -258,7 +258,7 @@ const std::vector<FileFault>& fileFaults()
         {"LongEntriesOverflow", set<std::uint64_t>(96, kHuge), "long list entries are more"},
         {"MoreLongEntriesThanEntries", set<std::uint64_t>(96, UINT32_MAX), "more list entries are long"},
         {"VoxelsMore", set<std::uint64_t>(64, 1000000), "attributes of voxels where the header asks for 1000000"},
-        {"NodesMore", set<std::uint64_t>(72, UINT32_MAX), "nodes where the header asks for 4294967295"},
+        {"NodesMore", set<std::uint64_t>(72, UINT32_MAX), "nodes where the header asks for 4294967175"},
         {"EntriesMore", set<std::uint64_t>(88, UINT32_MAX), "lists where the header asks for 1073741824"},
         {"OctreeNodesMore", set<std::uint64_t>(80, 5), "attributes of nodes where the header asks for 5"},
         {"SectionsMany", set(20, 1025U), "1025 sections are more than the 1024"},
@@ -312,7 +312,10 @@ const std::vector<FileFault>& fileFaults()
          "last section ends at byte"},
         {"UnknownSection", change([](ZvoParts& parts) { addSection(parts, 99, kZvoMustUnderstand); }),
          "section 99 is unknown to this version and cannot be left out"},
-        {"NoLevels", withoutSection(ZvoSectionId::Levels), "0 levels of nodes where a grid of depth 5 has 3"},
+        {"NoLevels", withoutSection(ZvoSectionId::Levels), "nodes where the header asks for"},
+        {"NoLevelsOfALeaf", withoutSection(ZvoSectionId::Levels), "0 levels of nodes where a grid of depth",
+         "one_voxel"},
+        {"NoLeaves", withoutSection(ZvoSectionId::Leaves), "leaves are missing"},
         {"NoNodes", withoutSection(ZvoSectionId::Nodes), "nodes are missing"},
         {"NoLists", withoutSection(ZvoSectionId::Lists), "lists are missing"},
         {"NoBefore", withoutSection(ZvoSectionId::Before), "counts beside the lists"},
@@ -350,6 +353,28 @@ TEST_P(ZvoFault, HasItsOwnMessage)
     EXPECT_NE(message.find(GetParam().words), std::string::npos) << message;
 }
 
+TEST(ZvoFile, OfVersionOneIsRead)
+{
+    for (const TreeSample& sample : treeSamples())
+    {
+        Bytes file = zvoBytes(sample.tree);
+        change(
+            [&](ZvoParts& parts)
+            {
+                parts.header.version_major = 1;
+                std::erase_if(parts.sections, [](const ZvoParts::Section& section)
+                              { return section.entry.id == static_cast<std::uint32_t>(ZvoSectionId::Leaves); });
+                if (!sample.tree.nodes.empty()) // leaves stood among the nodes
+                {
+                    const std::span<const std::byte> nodes = std::as_bytes(std::span(sample.tree.nodes));
+                    parts.find(ZvoSectionId::Nodes)->content.assign(nodes.begin(), nodes.end());
+                    parts.find(ZvoSectionId::Nodes)->entry.count = sample.tree.nodes.size();
+                }
+            })(file);
+        EXPECT_EQ(treeDifference(readZvo(file, "one.zvo").tree, sample.tree), "") << sample.name;
+    }
+}
+
 TEST(ZvoFile, OfALaterMinorVersionIsReadWithoutWhatIsNew)
 {
     const TreeData tree = treeSample("random_5_with_attributes_dag");
@@ -363,7 +388,7 @@ TEST(ZvoFile, OfALaterMinorVersionIsReadWithoutWhatIsNew)
         })(file);
     const ZvoFile read = readZvo(file, "later.zvo");
     EXPECT_EQ(treeDifference(read.tree, tree), "");
-    EXPECT_EQ(read.sections.size(), 10U);
+    EXPECT_EQ(read.sections.size(), 11U);
     file[file.size() - 1] ^= std::byte{1}; // the new section has its checksum, too
     EXPECT_NE(refusalOf(file).find("section 99 do not match"), std::string::npos);
 }

@@ -68,8 +68,8 @@ std::vector<gpu::uint> loadsOf(const DeviceTree& tree, const oracle::Ray& ray)
 
 TEST(TraceSvdag, LoadsAreThoseOfTheNodesOnTheWayAndTheirEntries)
 {
-    // A ray through the lowest row: past a voxel in each of two equal leaves, to a third one. Sector 0 has nodes 0
-    // and 1.
+    // A ray through the lowest row: past a voxel in each of two equal leaves, to a third one. Sector 0 has the root and
+    // two leaf words.
     test::CodeSet set{4, {}};
     for (const glm::uvec3& voxel : {glm::uvec3(0, 1, 0), glm::uvec3(4, 1, 0), glm::uvec3(8, 0, 0)})
     {
@@ -78,9 +78,9 @@ TEST(TraceSvdag, LoadsAreThoseOfTheNodesOnTheWayAndTheirEntries)
     const Pair trees(set, false);
     const oracle::Ray ray = oracle::makeRay(glm::vec3(0.5F, 1.03F, 1.03F), {1.0F, 0.0F, 0.0F});
     using Sectors = std::vector<gpu::uint>;
-    EXPECT_EQ(loadsOf(trees.octree, ray), (Sectors{0, 0, 0, 0, 0, 1, 1, 1, 0, 1}));
-    // Nodes 0 to 2, then the root's list. Where no list is asked, the entry is the first one.
-    EXPECT_EQ(loadsOf(trees.dag, ray), (Sectors{0, 1, 0, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0, 0, 0, 1, 1, 0}));
+    EXPECT_EQ(loadsOf(trees.octree, ray), (Sectors{0, 0, 0, 0, 0, 0, 0, 0, 0, 1}));
+    // The root's list begins sector 1. Where no list is asked, the entry is the first one.
+    EXPECT_EQ(loadsOf(trees.dag, ray), (Sectors{0, 1, 0, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0, 0, 0, 1, 0, 0}));
 }
 
 TEST(TraceSvdag, EveryViewIsTheSame)

@@ -16,7 +16,7 @@ TEST(SvdagLists, WordsHaveAsManyEntriesAsNumbersAllow)
                                                                 {2097152, 3}, {2097153, 2}, {UINT32_MAX, 2}};
     for (const auto& [node_count, per_word] : expected)
     {
-        EXPECT_EQ(ListPacking::tightest(node_count, 0).per_word, per_word) << node_count;
+        EXPECT_EQ(ListPacking::tightest(node_count, 0, 0).per_word, per_word) << node_count;
     }
 }
 
@@ -41,24 +41,26 @@ TEST(SvdagLists, UnpackedAreWhatWasPacked)
             std::vector<std::uint32_t> entries(count, largest);
             std::generate(entries.begin(), entries.begin() + static_cast<std::ptrdiff_t>(count / 2),
                           [&] { return static_cast<std::uint32_t>(random()) & largest; });
-            const ListPacking packing = {5, count, per_word};
+            const ListPacking packing = {10, count, per_word};
             const std::vector<std::uint64_t> words = packEntries(entries, per_word);
             EXPECT_EQ(words.size(), packing.wordCount());
             EXPECT_EQ(unpackEntries(words, count, per_word), entries);
-            const std::vector<gpu::Node> nodes = entriesToNodes(entries, per_word);
-            EXPECT_EQ(nodes.size(), packing.poolNodes() - packing.node_count);
-            EXPECT_EQ(nodesToEntries(nodes, packing), entries);
+            const std::vector<gpu::Node> nodes = nodesOf(words);
+            EXPECT_EQ(nodes.size(), packing.poolNodes() - packing.node_words / 2);
+            std::vector<std::uint64_t> padded = wordsOf(nodes);
+            padded.resize(words.size());
+            EXPECT_EQ(padded, words);
         }
     }
 }
 
 TEST(SvdagLists, EntriesFitIntoTheBaseOfANode)
 {
-    const std::uint64_t most = (std::uint64_t{1} << 31) - 8; // positions of nodes and entries
-    EXPECT_TRUE((ListPacking{1000, most - 4000, 2}.fits()));
-    EXPECT_FALSE((ListPacking{1000, most - 4000 + 8, 2}.fits()));
-    EXPECT_TRUE((ListPacking{most / 4, 0, 2}.fits()));
-    EXPECT_FALSE((ListPacking{most / 4 + 2, 0, 2}.fits()));
+    const std::uint64_t most = (std::uint64_t{1} << 30) - 8; // positions of words and entries
+    EXPECT_TRUE((ListPacking{2000, most - 4000, 2}.fits()));
+    EXPECT_FALSE((ListPacking{2000, most - 4000 + 8, 2}.fits()));
+    EXPECT_TRUE((ListPacking{most / 2, 0, 2}.fits()));
+    EXPECT_FALSE((ListPacking{most / 2 + 4, 0, 2}.fits()));
 }
 
 } // namespace

@@ -32,7 +32,7 @@ std::optional<ErrorCode> refusal(std::uint64_t nodes, std::uint64_t attributes)
 
 TEST(TreeLimits, AreThoseOfSignedIndices)
 {
-    EXPECT_EQ(2 * (kNodesMax - 1) + 1, std::uint64_t{INT32_MAX}) << "the last node's second half";
+    EXPECT_EQ(2 * kNodesMax, std::uint64_t{gpu::kLeafWords}) << "numbers of words have no flag";
     EXPECT_EQ(kIndicesMax - 1, std::uint64_t{INT32_MAX});
     EXPECT_EQ(refusal(0, 0), std::nullopt);
     EXPECT_EQ(refusal(kNodesMax, kIndicesMax), std::nullopt);
