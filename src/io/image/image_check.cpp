@@ -18,6 +18,12 @@ constexpr std::uint64_t kDeflateRatioMax = 1032;     // most bytes that a byte o
 constexpr std::uint64_t kJpegPixelsPerByteMax = 512; // every 8 x 8 pixels take at least a bit
 constexpr std::uint32_t kScansMax = 500;             // the most thorough encoders write about ten
 
+constexpr std::uint64_t kTgaPixelsPerByteMax = 64; // a run of 128 pixels takes two bytes at least
+constexpr std::size_t kTgaHeadBytes = 18;          // that of BMP is longer
+constexpr std::size_t kTgaBitsAt = 16;             // bits of a pixel in the head
+constexpr std::size_t kBmpBitsAt = 28;
+constexpr std::uint8_t kTgaRuns = 9; // types from here on have runs
+
 // A JPEG marker is kMark and a code.
 constexpr std::uint8_t kMark = 255;
 constexpr std::uint8_t kStuffing = 0; // after kMark in pixel data: the byte kMark
@@ -145,6 +151,16 @@ ImageCost estimateImageCost(Bytes encoded, std::uint32_t width, std::uint32_t he
     {
         cost.raw_bytes = (1 + (width * pngPixelBits(encoded) + 7) / 8) * height; // each row begins with a filter byte
         cost.plausible = cost.raw_bytes / kDeflateRatioMax <= encoded.size();
+    }
+    else if (encoded.front() != kMark) // BMP or TGA
+    {
+        const bool is_bmp = isTextAt(encoded, 0, "BM");
+        const std::size_t bits_at = is_bmp ? kBmpBitsAt : kTgaBitsAt;
+        const std::uint64_t pixel_bits = bits_at < encoded.size() ? encoded[bits_at] : 0;
+        const bool has_runs = !is_bmp && encoded[2] >= kTgaRuns;
+        cost.raw_bytes = std::uint64_t{width} * height * 4;
+        cost.plausible = has_runs ? std::uint64_t{width} * height / kTgaPixelsPerByteMax <= encoded.size()
+                                  : width * pixel_bits / 8 * height + kTgaHeadBytes <= encoded.size();
     }
     else
     {

@@ -14,7 +14,7 @@ namespace zvo
 /// of the file.
 std::string findImageFault(std::span<const std::uint8_t> encoded);
 
-/// The cost of decoding a PNG or JPEG, from the size that it announces.
+/// The cost of decoding a PNG, JPEG, BMP or TGA, from the size that it announces.
 struct ImageCost
 {
     bool plausible = false;      // the file is long enough for so many pixels

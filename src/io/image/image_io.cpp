@@ -45,6 +45,8 @@ void* decoderReallocate(void* old, std::size_t bytes)
 #define STB_IMAGE_IMPLEMENTATION
 #define STBI_ONLY_PNG
 #define STBI_ONLY_JPEG
+#define STBI_ONLY_BMP
+#define STBI_ONLY_TGA
 #define STBI_NO_STDIO
 #define STBI_NO_FAILURE_STRINGS
 #define STBI_MALLOC(bytes) decoderAllocate(bytes)
@@ -127,7 +129,7 @@ ImageHeader readHeader(std::span<const std::uint8_t> encoded, const std::string&
     const auto fail = [&](const std::string& what) { return imageError(where, what); };
     if (encoded.empty())
     {
-        throw fail("not a PNG, JPEG or WebP image (it is empty); save it as one");
+        throw fail("not a PNG, JPEG, WebP, BMP or TGA image (it is empty); save it as one");
     }
     if (encoded.size() > INT_MAX)
     {
@@ -147,7 +149,7 @@ ImageHeader readHeader(std::span<const std::uint8_t> encoded, const std::string&
     }
     if (stbi_info_from_memory(encoded.data(), static_cast<int>(encoded.size()), &width, &height, &channels) == 0)
     {
-        throw fail("not a PNG, JPEG or WebP image, or its header is broken; save it as one of them");
+        throw fail("not a PNG, JPEG, WebP, BMP or TGA image, or its header is broken; save it as one of them");
     }
     checkSize(width, height, bytes_max, where);
     ImageHeader header{static_cast<std::uint32_t>(width), static_cast<std::uint32_t>(height)};

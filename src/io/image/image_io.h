@@ -18,9 +18,9 @@ namespace zvo
 /// The most pixels along an edge of a picture that is read or written.
 inline constexpr std::uint32_t kImageEdgeMax = 16384;
 
-/// Decodes a PNG, JPEG or WebP to 8-bit RGBA; 16-bit channels keep their upper byte, grey and palettes become colours.
-/// name: of the resulting Image. where: the beginning of messages. Throws Error{Input}, before anything is decoded for
-/// an image of more than bytes_max decoded bytes.
+/// Decodes a PNG, JPEG, WebP, BMP or TGA to 8-bit RGBA; 16-bit channels keep their upper byte, grey and palettes become
+/// colours. name: of the resulting Image. where: the beginning of messages. Throws Error{Input}, before anything is
+/// decoded for an image of more than bytes_max decoded bytes.
 Image decodeImage(std::span<const std::uint8_t> encoded, const std::string& name, const std::string& where,
                   std::uint64_t bytes_max = UINT64_MAX);
 

@@ -273,12 +273,12 @@ TEST(GltfMaterials, ImagesThatCannotBeUsedAreLeftOutWithAWarning)
     };
     const std::vector<Case> cases = {
         {{{"uri", "missing%20one.png"}}, {}, "images[0].uri is missing%20one.png: there is no such file"},
-        {{{"uri", "brick.dds"}}, {}, "images[0] (brick.dds): not a PNG, JPEG or WebP image"},
-        {{{"uri", "empty.png"}}, {}, "images[0] (empty.png): not a PNG, JPEG or WebP image (it is empty)"},
+        {{{"uri", "brick.dds"}}, {}, "images[0] (brick.dds): not a PNG, JPEG, WebP, BMP or TGA image"},
+        {{{"uri", "empty.png"}}, {}, "images[0] (empty.png): not a PNG, JPEG, WebP, BMP or TGA image (it is empty)"},
         {{{"uri", "https://example.com/a.png"}}, {}, "images[0].uri is https://example.com/a.png: only files"},
-        {{{"uri", "data:image/png;base64,AAAA"}}, {}, "images[0] (images[0]): not a PNG, JPEG or WebP image"},
+        {{{"uri", "data:image/png;base64,AAAA"}}, {}, "images[0] (images[0]): not a PNG, JPEG, WebP, BMP or TGA image"},
         {{{"uri", "data:image/png;base64,A*"}}, {}, "images[0].uri is not a valid data URI"},
-        {{{"name", "skin"}}, bytes("GIF89a text"), "images[0] (images[0]): not a PNG, JPEG or WebP image"},
+        {{{"name", "skin"}}, bytes("GIF89a text"), "images[0] (images[0]): not a PNG, JPEG, WebP, BMP or TGA image"},
         {json::object(), cut, "images[0] (images[0]): the image does not decode"},
         {json::object(), wide, "images[0] (images[0]): "},
         {{{"name", "skin"}}, {}, "images[0] has neither a URI nor a buffer view"}};

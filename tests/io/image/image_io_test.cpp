@@ -4,6 +4,7 @@
 #include "io/gltf/gltf_builder.h"
 #include "io/gltf/gltf_uri.h"
 #include "io/image/webp_write.h"
+#include "support/errors.h"
 #include "zvo/error.h"
 
 #include <algorithm>
@@ -116,6 +117,55 @@ TEST(ImageIo, EqualPicturesGiveEqualFiles)
     EXPECT_EQ(encodeJpeg(50, 40, image.rgba, 90), encodeJpeg(50, 40, image.rgba, 90));
     EXPECT_EQ(encodeWebp(50, 40, image.rgba, 90), encodeWebp(50, 40, image.rgba, 90));
     EXPECT_EQ(encodePng(50, 40, image.rgba), encodePng(50, 40, image.rgba));
+}
+
+// Two pixels in a row: (1, 2, 3) and (200, 100, 50). In the files blue comes first.
+std::vector<std::uint8_t> bmp()
+{
+    std::vector<std::uint8_t> file = {'B', 'M', 62, 0, 0, 0, 0, 0, 0, 0, 54, 0, 0, 0, // sizes of the file and its head
+                                      40,  0,   0,  0, 2, 0, 0, 0, 1, 0, 0,  0, 1, 0, // width, height, planes
+                                      24,  0};                                        // bits of a pixel
+    file.resize(54);
+    file.insert(file.end(), {3, 2, 1, 50, 100, 200, 0, 0});
+    return file;
+}
+
+std::vector<std::uint8_t> tga(std::uint8_t type, std::uint8_t bits, std::initializer_list<std::uint8_t> pixels)
+{
+    constexpr std::uint8_t kFromTop = 32;
+    std::vector<std::uint8_t> file = {0, 0, type, 0, 0, 0, 0, 0, 0, 0, 0, 0, 2, 0, 1, 0, bits, kFromTop};
+    file.insert(file.end(), pixels);
+    return file;
+}
+
+TEST(ImageIo, BmpAndTgaKeepEveryByte)
+{
+    const std::vector<std::uint8_t> wanted = {1, 2, 3, 255, 200, 100, 50, 255};
+    EXPECT_EQ(decodeImage(bmp(), "name", "here").rgba, wanted);
+    EXPECT_EQ(decodeImage(tga(2, 24, {3, 2, 1, 50, 100, 200}), "name", "here").rgba, wanted);
+    EXPECT_EQ(decodeImage(tga(10, 24, {1, 3, 2, 1, 50, 100, 200}), "name", "here").rgba, wanted) << "no run";
+    EXPECT_EQ(decodeImage(tga(10, 32, {129, 3, 2, 1, 4}), "name", "here").rgba,
+              (std::vector<std::uint8_t>{1, 2, 3, 4, 1, 2, 3, 4}));
+    EXPECT_EQ(decodeImage(tga(3, 8, {7, 9}), "name", "here").rgba,
+              (std::vector<std::uint8_t>{7, 7, 7, 255, 9, 9, 9, 255}));
+}
+
+TEST(ImageIo, BmpAndTgaThatAreCutShortAreInputErrors)
+{
+    std::vector<std::uint8_t> large = tga(10, 24, {129, 3, 2, 1});
+    large[13] = 64; // 16,386 pixels wide
+    std::vector<std::uint8_t> runs = tga(10, 24, {129, 3, 2, 1});
+    runs[15] = 32; // 8193 rows
+    std::vector<std::uint8_t> flat = bmp();
+    flat[22] = 100; // rows
+    for (const auto& [file, reason] :
+         {std::pair(large, "16386 x 1"), std::pair(runs, "more than its"), std::pair(flat, "more than its"),
+          std::pair(tga(2, 24, {}), "more than its"), std::pair(tga(2, 12, {1, 2, 3, 4}), "not a PNG")})
+    {
+        test::expectParts(
+            test::messageOf([&] { static_cast<void>(decodeImage(file, "name", "here")); }, ErrorCode::Input),
+            {"here: ", reason});
+    }
 }
 
 // Two pixels, 16 bits per channel: 12ff 8000 ffff 00ff, 0100 7f80 fe01 ffff.
@@ -239,8 +289,8 @@ TEST(ImageIo, BrokenImagesAreInputErrors)
     png.resize(png.size() / 2);
     test::expectInputError([&] { decodeImage(png, "", "here"); }, {"here: ", "does not decode"});
     png.resize(3);
-    test::expectInputError([&] { decodeImage(png, "", "here"); }, {"here: ", "not a PNG, JPEG or WebP"});
-    test::expectInputError([&] { decodeImage({}, "", "here"); }, {"here: ", "not a PNG, JPEG or WebP"});
+    test::expectInputError([&] { decodeImage(png, "", "here"); }, {"here: ", "not a PNG, JPEG, WebP, BMP or TGA"});
+    test::expectInputError([&] { decodeImage({}, "", "here"); }, {"here: ", "not a PNG, JPEG, WebP, BMP or TGA"});
 }
 
 TEST(ImageIo, TooLongEdgeIsAnInputError)

@@ -206,7 +206,7 @@ TEST(MeshImport, WhatAnMtlFileNamesWronglyIsAWarning)
     for (const auto& [name, reason] :
          {std::pair(up, "leaves the file's folder"), std::pair((outside.path() / "secret.png").string(), "leaves"),
           std::pair(std::string("link.png"), "leaves"), std::pair(std::string("absent.png"), "no such file"),
-          std::pair(std::string("."), "no such file"), std::pair(std::string("notes.png"), "not a PNG, JPEG or WebP")})
+          std::pair(std::string("."), "no such file"), std::pair(std::string("notes.png"), "not a PNG, JPEG, WebP, BMP or TGA")})
     {
         dir.write("a.mtl", "newmtl m\nKd 0 0 0\nmap_Kd " + name + "\n");
         const Scene scene = loadIn(dir, "a.obj");
