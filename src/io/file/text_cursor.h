@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <charconv>
 #include <cstddef>
 #include <optional>
+#include <string>
 #include <string_view>
 #include <system_error>
 
@@ -25,15 +27,27 @@ template <typename T> std::optional<T> parseNumber(std::string_view word)
 }
 
 /// All of word as a number in single precision, rounded once. A number beyond single precision becomes what conversion
-/// from double makes of it: 0 or infinity. Nothing if word is not a number.
+/// from double makes of it: 0 or infinity. What Microsoft's library has written for a number that is none ("1.#QNAN")
+/// is none. Nothing if word is not a number.
 inline std::optional<float> parseSingle(std::string_view word)
 {
     if (const std::optional<float> value = parseNumber<float>(word))
     {
         return value;
     }
-    const std::optional<double> value = parseNumber<double>(word);
+    const std::optional<double> value = parseNumber<double>(word.find(".#") == word.npos ? word : "nan");
     return value ? std::optional(static_cast<float>(*value)) : std::nullopt;
+}
+
+/// text with the capitals of ASCII made small.
+inline std::string lowered(std::string_view text)
+{
+    std::string small(text);
+    for (char& letter : small)
+    {
+        letter = letter >= 'A' && letter <= 'Z' ? static_cast<char>(letter - 'A' + 'a') : letter;
+    }
+    return small;
 }
 
 /// Reads a text line by line and word by word.
@@ -68,15 +82,21 @@ public:
     /// The next word, whatever line it is on; empty at the end of the text.
     std::string_view word()
     {
-        constexpr std::string_view kSpace = " \t\r\n\v\f";
-        const std::size_t first = m_rest.find_first_not_of(kSpace);
-        m_rest.remove_prefix(first == std::string_view::npos ? m_rest.size() : first);
+        m_rest.remove_prefix(std::min(m_rest.size(), m_rest.find_first_not_of(kSpace)));
         const std::string_view word = m_rest.substr(0, m_rest.find_first_of(kSpace));
         m_rest.remove_prefix(word.size());
         return word;
     }
 
+    /// Everything behind, without the space around it.
+    std::string_view rest()
+    {
+        m_rest.remove_prefix(std::min(m_rest.size(), m_rest.find_first_not_of(kSpace)));
+        return m_rest.substr(0, m_rest.find_last_not_of(kSpace) + 1);
+    }
+
 private:
+    static constexpr std::string_view kSpace = " \t\r\n\v\f";
     std::string_view m_rest;
 };
 

@@ -3,9 +3,9 @@
 
 #include "core/base/finite.h"
 #include "core/base/input_error.h"
-#include "core/scene/scene_size.h"
 #include "io/file/text_cursor.h"
 #include "io/image/srgb.h"
+#include "io/mesh/mesh_scene.h"
 #include "io/mesh/ply_header.h"
 #include "io/mesh/polygon_triangulator.h"
 
@@ -14,7 +14,6 @@
 #include <bit>
 #include <cmath>
 #include <fmt/format.h>
-#include <iterator>
 #include <limits>
 #include <optional>
 #include <span>
@@ -28,74 +27,36 @@ namespace zvo
 namespace
 {
 
-/// The divisor of a colour channel of that type.
-double channelMax(PlyType type)
-{
-    return type == PlyType::UInt8    ? std::numeric_limits<std::uint8_t>::max()
-           : type == PlyType::UInt16 ? std::numeric_limits<std::uint16_t>::max()
-                                     : 1.0;
-}
-
-/// The meaning of a number of a vertex, as an index into VertexValues.
-enum class Use : std::size_t
-{
-    X,
-    Y,
-    Z,
-    NormalX,
-    NormalY,
-    NormalZ,
-    Red,
-    Green,
-    Blue,
-    Alpha,
-    Nothing
-};
-
-constexpr std::size_t kUseCount = static_cast<std::size_t>(Use::Nothing);
-using VertexValues = std::array<double, kUseCount>;
-
-Use useOf(std::string_view name)
-{
-    constexpr std::string_view kNames[kUseCount][3] = {{"x"},
-                                                       {"y"},
-                                                       {"z"},
-                                                       {"nx"},
-                                                       {"ny"},
-                                                       {"nz"},
-                                                       {"red", "r", "diffuse_red"},
-                                                       {"green", "g", "diffuse_green"},
-                                                       {"blue", "b", "diffuse_blue"},
-                                                       {"alpha", "a"}};
-    const auto hasName = [&](const auto& names)
-    { return std::find(std::begin(names), std::end(names), name) != std::end(names); };
-    const auto found = std::find_if(std::begin(kNames), std::end(kNames), hasName);
-    return name.empty() ? Use::Nothing : static_cast<Use>(found - std::begin(kNames));
-}
-
 class PlyReader
 {
 public:
-    PlyReader(const std::filesystem::path& path, std::string_view content)
-        : m_path(path), m_cursor(content), m_bytes_left(path)
+    PlyReader(const std::filesystem::path& path, std::string_view content, ImageDecoding decoding)
+        : m_path(path), m_cursor(content), m_bytes_left(path), m_scene(path, decoding)
     {
     }
 
-    Primitive read(std::vector<std::string>& notes)
+    Scene read()
     {
-        const PlyHeader header = readPlyHeader(m_cursor, m_path);
-        if (!header.unknown_line.empty())
+        m_header = readPlyHeader(m_cursor, m_path);
+        if (!m_header.unknown_line.empty())
         {
-            notes.push_back(
-                fmt::format("lines of the header without a keyword of PLY left out (\"{}\")", header.unknown_line));
+            m_scene.warn(
+                fmt::format("lines of the header without a keyword of PLY left out (\"{}\")", m_header.unknown_line));
         }
-        m_encoding = header.encoding;
-        readElements(header.elements);
-        if (!m_has_faces && !m_primitive.positions.empty())
+        readElements();
+        if (!m_has_faces && !m_vertices.positions.empty())
         {
-            notes.emplace_back("a cloud of points, without faces; only triangles become voxels");
+            m_scene.warn("a cloud of points, without faces; only triangles become voxels");
         }
-        return std::move(m_primitive);
+        if (!m_vertices.triangles.empty() || m_pieces.empty())
+        {
+            addPrimitive(0, m_vertices);
+        }
+        for (auto& [picture, piece] : m_pieces)
+        {
+            addPrimitive(picture, piece);
+        }
+        return m_scene.finish(std::move(m_primitives));
     }
 
 private:
@@ -107,11 +68,12 @@ private:
     }
 
     /// Reads the vertices first, as faces may stand before those that they name.
-    void readElements(const std::vector<PlyElement>& elements)
+    void readElements()
     {
+        const std::vector<PlyElement>& elements = m_header.elements;
         const auto vertices = std::find_if(elements.begin(), elements.end(), hasVertices);
         const TextCursor start = m_cursor;
-        std::for_each(elements.begin(), vertices, [this](const PlyElement& element) { skip(element); });
+        std::for_each(elements.begin(), vertices, [this](const PlyElement& element) { forEachItem(element, [] {}); });
         if (vertices != elements.end())
         {
             readVertices(*vertices);
@@ -139,127 +101,173 @@ private:
         return element.name == "vertex" && element.count != 0 && !element.properties.empty();
     }
 
-    /// Calls read with each property of each item, whose data comes in this order. An element without properties has
-    /// no data, whatever its count.
-    template <typename Read> static void forEachProperty(const PlyElement& element, const Read& read)
+    /// Calls use after each item was read into m_values, m_indices and m_wedges. An element without properties has no
+    /// data, whatever its count.
+    template <typename Use> void forEachItem(const PlyElement& element, const Use& use)
     {
         for (std::uint64_t i = 0; !element.properties.empty() && i < element.count; ++i)
         {
-            std::for_each(element.properties.begin(), element.properties.end(), read);
+            m_values = {};
+            m_values[PlyAlpha] = 1.0;
+            m_indices.clear();
+            m_wedges.clear();
+            std::ranges::for_each(element.properties, [this](const PlyProperty& property) { readProperty(property); });
+            use();
         }
     }
 
-    void skip(const PlyElement& element)
+    void readProperty(const PlyProperty& property)
     {
-        forEachProperty(element, [this](const PlyProperty& property) { skip(property); });
-    }
-
-    void readFaces(const PlyElement& element)
-    {
-        forEachProperty(element,
-                        [&](const PlyProperty& property)
-                        {
-                            const bool has_corners = property.count_type && (property.name == "vertex_indices" ||
-                                                                             property.name == "vertex_index");
-                            if (has_corners && element.name == "face")
-                            {
-                                readFace(property);
-                            }
-                            else if (has_corners && element.name == "tristrips")
-                            {
-                                readStrips(property);
-                            }
-                            else
-                            {
-                                skip(property);
-                            }
-                        });
+        if (property.count_type == nullptr)
+        {
+            const bool is_color = property.use >= PlyRed && property.use <= PlyAlpha;
+            m_values[property.use] = number(*property.type) / (is_color ? property.type->channel_max : 1.0);
+            return;
+        }
+        const double count = number(*property.count_type);
+        if (!(count >= 0.0) || count != std::floor(count) || count > std::numeric_limits<std::uint32_t>::max())
+        {
+            throw fail(fmt::format("a list {} has {} entries", property.name, count));
+        }
+        const bool has_corners = property.name == "vertex_indices" || property.name == "vertex_index";
+        for (std::uint64_t i = 0; i < static_cast<std::uint64_t>(count); ++i)
+        {
+            const double value = number(*property.type);
+            if (has_corners)
+            {
+                m_indices.push_back(value);
+            }
+            else if (property.name == kWedges)
+            {
+                m_wedges.push_back(value);
+            }
+        }
     }
 
     void readVertices(const PlyElement& element)
     {
-        std::array<bool, kUseCount + 1> has{};
-        for (const PlyProperty& property : element.properties)
-        {
-            has[static_cast<std::size_t>(useOf(property.name))] |= !property.count_type;
-        }
-        const auto all = [&](Use a, Use b, Use c) {
-            return has[static_cast<std::size_t>(a)] && has[static_cast<std::size_t>(b)] &&
-                   has[static_cast<std::size_t>(c)];
-        };
-        if (!all(Use::X, Use::Y, Use::Z))
+        if (!element.hasThree(PlyX))
         {
             throw fail("its vertices have no x, y and z");
         }
-        const bool has_normals = all(Use::NormalX, Use::NormalY, Use::NormalZ);
-        const bool has_colors = all(Use::Red, Use::Green, Use::Blue);
-        const std::uint64_t vertex_bytes =
-            sizeof(glm::vec3) + (has_normals ? sizeof(glm::vec3) : 0) + (has_colors ? sizeof(glm::vec4) : 0);
-        for (std::uint64_t i = 0; i < element.count; ++i)
-        {
-            m_bytes_left.take(vertex_bytes);
-            VertexValues values{};
-            values[static_cast<std::size_t>(Use::Alpha)] = 1.0;
-            for (const PlyProperty& property : element.properties)
-            {
-                const Use use = property.count_type ? Use::Nothing : useOf(property.name);
-                if (use == Use::Nothing)
-                {
-                    skip(property);
-                }
-                else
-                {
-                    const double value = number(property.type);
-                    values[static_cast<std::size_t>(use)] = use >= Use::Red ? value / channelMax(property.type) : value;
-                }
-            }
-            addVertex(values, has_normals, has_colors);
-        }
+        const bool has_normals = element.hasThree(PlyNormalX);
+        const bool has_colors = element.hasThree(PlyRed);
+        const bool has_uvs = element.has(PlyU) && element.has(PlyV);
+        m_vertex_bytes = sizeof(glm::vec3) + (has_normals ? sizeof(glm::vec3) : 0) +
+                         (has_colors ? sizeof(glm::vec4) : 0) + (has_uvs ? sizeof(glm::vec2) : 0);
+        forEachItem(element,
+                    [&]
+                    {
+                        m_bytes_left.take(m_vertex_bytes);
+                        m_vertices.positions.emplace_back(m_values[PlyX], m_values[PlyY], m_values[PlyZ]);
+                        if (has_normals)
+                        {
+                            m_vertices.normals.push_back(unitOrZero(
+                                glm::dvec3(m_values[PlyNormalX], m_values[PlyNormalY], m_values[PlyNormalZ])));
+                        }
+                        if (has_colors)
+                        {
+                            m_vertices.colors.push_back(color());
+                        }
+                        if (has_uvs)
+                        {
+                            m_vertices.uvs.emplace_back(m_values[PlyU], 1.0 - m_values[PlyV]); // v points up
+                        }
+                    });
     }
 
-    void addVertex(const VertexValues& values, bool has_normals, bool has_colors)
+    [[nodiscard]] glm::vec4 color() const
     {
-        const auto vector = [&](Use first)
-        {
-            const auto at = static_cast<std::size_t>(first);
-            return glm::dvec3(values[at], values[at + 1], values[at + 2]);
-        };
-        m_primitive.positions.emplace_back(vector(Use::X));
-        if (has_normals)
-        {
-            m_primitive.normals.push_back(unitOrZero(vector(Use::NormalX)));
-        }
-        if (has_colors)
-        {
-            m_primitive.colors.push_back(
-                srgbToLinear(glm::dvec4(vector(Use::Red), values[static_cast<std::size_t>(Use::Alpha)])));
-        }
+        return srgbToLinear(glm::dvec4(m_values[PlyRed], m_values[PlyGreen], m_values[PlyBlue], m_values[PlyAlpha]));
     }
 
-    void readFace(const PlyProperty& property)
+    void readFaces(const PlyElement& element)
     {
-        const std::uint64_t count = listCount(property);
-        const std::uint64_t triangles_max = count > 3 ? 2 * count : count / 3; // PolygonTriangulator
+        const bool is_face = element.name == "face";
+        const bool is_strip = element.name == "tristrips";
+        if (!is_face && !is_strip && element.count != 0 && !element.properties.empty())
+        {
+            m_scene.warn(fmt::format("elements left out that are no vertices, faces or strips ({})", element.name));
+        }
+        m_face_colors = is_face && element.hasThree(PlyRed) && m_vertices.colors.empty();
+        m_face_uvs = is_face && element.hasList(kWedges) && !m_header.pictures.empty();
+        const bool is_split = m_face_colors || m_face_uvs || (is_face && element.has(PlyTexture));
+        if (is_face && element.hasThree(PlyRed) && !m_face_colors)
+        {
+            m_scene.warn("colours of faces left out, as the vertices have colours");
+        }
+        forEachItem(element,
+                    [&]
+                    {
+                        if (is_strip)
+                        {
+                            addStrips();
+                        }
+                        else if (is_face)
+                        {
+                            addFace(is_split);
+                        }
+                    });
+    }
+
+    /// is_split: its vertices become its own, with what only the face has.
+    void addFace(bool is_split)
+    {
+        const std::size_t count = m_indices.size();
         m_corners.clear();
         m_corner_positions.clear();
-        for (std::uint64_t i = 0; i < count; ++i)
+        for (const double index : m_indices)
         {
-            m_corners.push_back(vertexIndex(number(property.type)));
-            m_corner_positions.push_back(m_primitive.positions[m_corners.back()]);
+            m_corners.push_back(vertexIndex(index));
+            m_corner_positions.push_back(m_vertices.positions[m_corners.back()]);
         }
-        m_bytes_left.take(triangles_max * sizeof(glm::uvec3));
-        m_triangulator.triangulate(m_corner_positions, m_corners, m_primitive.triangles);
+        Primitive& piece = is_split ? m_pieces[pictureIndex()] : m_vertices;
+        for (std::size_t i = 0; is_split && i < count; ++i)
+        {
+            m_corners[i] = addCorner(m_corners[i], i, piece);
+        }
+        m_bytes_left.take((count > 3 ? 2 * count : count / 3) * sizeof(glm::uvec3)); // PolygonTriangulator
+        m_triangulator.triangulate(m_corner_positions, m_corners, piece.triangles);
         m_has_faces = m_has_faces || count >= 3;
     }
 
-    void readStrips(const PlyProperty& property)
+    [[nodiscard]] std::size_t pictureIndex() const
     {
-        const std::uint64_t count = listCount(property);
+        const double index = m_values[PlyTexture];
+        return index > 0.0 && index < static_cast<double>(m_header.pictures.size()) ? static_cast<std::size_t>(index)
+                                                                                    : 0;
+    }
+
+    std::uint32_t addCorner(std::uint32_t vertex, std::size_t corner, Primitive& piece)
+    {
+        m_bytes_left.take(m_vertex_bytes + sizeof(glm::vec4) + sizeof(glm::vec2));
+        piece.positions.push_back(m_vertices.positions[vertex]);
+        if (!m_vertices.normals.empty())
+        {
+            piece.normals.push_back(m_vertices.normals[vertex]);
+        }
+        if (m_face_colors || !m_vertices.colors.empty())
+        {
+            piece.colors.push_back(m_face_colors ? color() : m_vertices.colors[vertex]);
+        }
+        if (m_face_uvs && m_wedges.size() == 2 * m_indices.size())
+        {
+            piece.uvs.resize(piece.positions.size() - 1);
+            piece.uvs.emplace_back(m_wedges[2 * corner], 1.0 - m_wedges[2 * corner + 1]);
+        }
+        else if (!m_vertices.uvs.empty())
+        {
+            piece.uvs.push_back(m_vertices.uvs[vertex]);
+        }
+        return static_cast<std::uint32_t>(piece.positions.size() - 1);
+    }
+
+    void addStrips()
+    {
         std::array<std::uint32_t, 2> last{}; // the vertex before the previous one, and the previous one
         std::uint64_t in_strip = 0;
-        for (std::uint64_t i = 0; i < count; ++i)
+        for (const double value : m_indices)
         {
-            const double value = number(property.type);
             if (value == -1.0)
             {
                 in_strip = 0;
@@ -270,7 +278,7 @@ private:
             {
                 const bool odd = in_strip % 2 == 1;
                 m_bytes_left.take(sizeof(glm::uvec3));
-                m_primitive.triangles.emplace_back(last[odd ? 1 : 0], last[odd ? 0 : 1], vertex);
+                m_vertices.triangles.emplace_back(last[odd ? 1 : 0], last[odd ? 0 : 1], vertex);
                 m_has_faces = true;
             }
             last = {last[1], vertex};
@@ -280,7 +288,7 @@ private:
 
     std::uint32_t vertexIndex(double value) const
     {
-        const std::size_t vertex_count = m_primitive.positions.size();
+        const std::size_t vertex_count = m_vertices.positions.size();
         if (!(value >= 0.0) || value >= std::numeric_limits<std::uint32_t>::max() || value != std::floor(value))
         {
             throw fail(fmt::format("a face has the vertex {}", value));
@@ -292,102 +300,75 @@ private:
         return static_cast<std::uint32_t>(value);
     }
 
-    std::uint64_t listCount(const PlyProperty& property)
-    {
-        const double count = number(*property.count_type);
-        if (!(count >= 0.0) || count != std::floor(count) || count > std::numeric_limits<std::uint32_t>::max())
-        {
-            throw fail(fmt::format("a list {} has {} entries", property.name, count));
-        }
-        return static_cast<std::uint64_t>(count);
-    }
-
-    void skip(const PlyProperty& property)
-    {
-        const std::uint64_t count = property.count_type ? listCount(property) : 1;
-        for (std::uint64_t i = 0; i < count; ++i)
-        {
-            number(property.type);
-        }
-    }
-
     /// The next number of the data. Numbers that are text are parsed in single precision, so they are rounded once.
-    double number(PlyType type)
+    double number(const PlyType& type)
     {
-        if (m_encoding == PlyEncoding::Text)
-        {
-            return textNumber(type);
-        }
-        switch (type)
-        {
-        case PlyType::Int8:
-            return binaryNumber<std::int8_t>();
-        case PlyType::UInt8:
-            return binaryNumber<std::uint8_t>();
-        case PlyType::Int16:
-            return binaryNumber<std::int16_t>();
-        case PlyType::UInt16:
-            return binaryNumber<std::uint16_t>();
-        case PlyType::Int32:
-            return binaryNumber<std::int32_t>();
-        case PlyType::UInt32:
-            return binaryNumber<std::uint32_t>();
-        case PlyType::Float32:
-            return binaryNumber<float>();
-        default:
-            return binaryNumber<double>();
-        }
-    }
-
-    template <typename T> double binaryNumber()
-    {
-        const std::string_view data = m_cursor.take(sizeof(T));
-        if (data.size() < sizeof(T))
+        const bool is_text = m_header.encoding == PlyEncoding::Text;
+        const std::string_view data = is_text ? m_cursor.word() : m_cursor.take(type.bytes);
+        if (data.size() < (is_text ? 1 : type.bytes))
         {
             throw cutShort();
         }
-        std::array<char, sizeof(T)> bytes;
-        std::copy_n(data.begin(), sizeof(T), bytes.begin());
-        if ((m_encoding == PlyEncoding::BigEndian) != (std::endian::native == std::endian::big))
+        if (is_text)
         {
-            std::reverse(bytes.begin(), bytes.end());
+            const auto value = type.is_single ? std::optional<double>(parseSingle(data)) : parseNumber<double>(data);
+            return value ? *value : throw fail(fmt::format("\"{}\" is not a number", data));
         }
-        return static_cast<double>(std::bit_cast<T>(bytes));
+        std::array<char, sizeof(double)> bytes;
+        std::copy(data.begin(), data.end(), bytes.begin());
+        if ((m_header.encoding == PlyEncoding::BigEndian) != (std::endian::native == std::endian::big))
+        {
+            std::reverse(bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(type.bytes));
+        }
+        return type.value(bytes.data());
     }
 
-    double textNumber(PlyType type)
+    /// Adds a primitive with a material for its picture.
+    void addPrimitive(std::size_t picture, Primitive& piece)
     {
-        const std::string_view word = m_cursor.word();
-        if (word.empty())
+        Material material;
+        material.name = "default";
+        if (picture < m_header.pictures.size() && piece.uvs.empty())
         {
-            throw cutShort();
+            m_scene.warn(
+                fmt::format("texture left out: {}: there are no texture coordinates", m_header.pictures[picture]));
         }
-        const std::optional<double> value =
-            type == PlyType::Float32 ? std::optional<double>(parseSingle(word)) : parseNumber<double>(word);
-        if (!value)
+        else if (picture < m_header.pictures.size())
         {
-            throw fail(fmt::format("\"{}\" is not a number", word));
+            piece.uvs.resize(piece.positions.size());
+            material.base_color_texture = m_scene.addTexture(m_header.pictures[picture], m_path, WrapMode::Repeat);
         }
-        return *value;
+        piece.material = m_scene.add(std::move(material));
+        m_primitives.push_back(std::move(piece));
     }
+
+    static constexpr std::string_view kWedges = "texcoord"; // of the corners of a face
 
     const std::filesystem::path& m_path;
     TextCursor m_cursor;
-    PlyEncoding m_encoding = PlyEncoding::Text;
+    PlyHeader m_header;
     SceneBytesLeft m_bytes_left;
-    std::vector<std::uint32_t> m_corners; // of the current face
+    std::array<double, PlyUseCount> m_values{}; // of the current vertex or face
+    std::vector<double> m_indices;
+    std::vector<double> m_wedges;
+    std::vector<std::uint32_t> m_corners;
     std::vector<glm::vec3> m_corner_positions;
     PolygonTriangulator m_triangulator;
-    bool m_has_faces = false; // of three corners at least
-    Primitive m_primitive;
+    std::size_t m_vertex_bytes = 0;
+    bool m_face_colors = false;
+    bool m_face_uvs = false;
+    bool m_has_faces = false;                  // of three corners at least
+    Primitive m_vertices;                      // and the triangles that share them
+    std::map<std::size_t, Primitive> m_pieces; // of faces with vertices of their own, by picture
+    std::vector<Primitive> m_primitives;
+    MeshScene m_scene;
 };
 
 } // namespace
 
-Primitive readPly(const std::filesystem::path& path, std::span<const std::uint8_t> bytes,
-                  std::vector<std::string>& notes)
+Scene readPly(const std::filesystem::path& path, std::span<const std::uint8_t> bytes, ImageDecoding decoding)
 {
-    return PlyReader(path, {reinterpret_cast<const char*>(bytes.data()), bytes.size()}).read(notes);
+    return PlyReader(path, {reinterpret_cast<const char*>(bytes.data()), bytes.size()}, decoding).read();
 }
 
 } // namespace zvo

@@ -5,9 +5,11 @@
 
 #include <algorithm>
 #include <array>
+#include <cstring>
 #include <fmt/format.h>
 #include <iterator>
 #include <string_view>
+#include <type_traits>
 
 namespace zvo
 {
@@ -15,14 +17,49 @@ namespace zvo
 namespace
 {
 
-std::optional<PlyType> typeOf(std::string_view name)
+template <typename T> double valueOf(const char* bytes)
 {
-    constexpr std::string_view kNames[][2] = {{"char", "int8"},     {"uchar", "uint8"},   {"short", "int16"},
-                                              {"ushort", "uint16"}, {"int", "int32"},     {"uint", "uint32"},
-                                              {"float", "float32"}, {"double", "float64"}}; // in the order of PlyType
-    const auto* const found = std::find_if(std::begin(kNames), std::end(kNames),
-                                           [&](const auto& names) { return names[0] == name || names[1] == name; });
-    return found != std::end(kNames) ? std::optional(static_cast<PlyType>(found - std::begin(kNames))) : std::nullopt;
+    T value;
+    std::memcpy(&value, bytes, sizeof(value));
+    return static_cast<double>(value);
+}
+
+template <typename T> constexpr PlyType typeOf(std::string_view name, std::string_view other, double channel_max = 1.0)
+{
+    return {{name, other}, sizeof(T), channel_max, valueOf<T>, std::is_same_v<T, float>};
+}
+
+constexpr PlyType kTypes[] = {
+    typeOf<std::int8_t>("char", "int8"),    typeOf<std::uint8_t>("uchar", "uint8", 255.0),
+    typeOf<std::int16_t>("short", "int16"), typeOf<std::uint16_t>("ushort", "uint16", 65535.0),
+    typeOf<std::int32_t>("int", "int32"),   typeOf<std::uint32_t>("uint", "uint32"),
+    typeOf<float>("float", "float32"),      typeOf<double>("double", "float64")};
+
+const PlyType* findType(std::string_view name)
+{
+    const auto* const found = std::ranges::find_if(kTypes, [&](const PlyType& type)
+                                                   { return type.names[0] == name || type.names[1] == name; });
+    return found != std::end(kTypes) ? found : nullptr;
+}
+
+PlyUse useOf(std::string_view name)
+{
+    constexpr std::string_view kNames[PlyNothing][3] = {{"x"},
+                                                        {"y"},
+                                                        {"z"},
+                                                        {"nx"},
+                                                        {"ny"},
+                                                        {"nz"},
+                                                        {"red", "r", "diffuse_red"},
+                                                        {"green", "g", "diffuse_green"},
+                                                        {"blue", "b", "diffuse_blue"},
+                                                        {"alpha", "a"},
+                                                        {"s", "u", "texture_u"},
+                                                        {"t", "v", "texture_v"},
+                                                        {"texnumber"}};
+    const auto* const found = std::ranges::find_if(kNames, [&](const auto& names)
+                                                   { return std::ranges::find(names, name) != std::end(names); });
+    return name.empty() ? PlyNothing : static_cast<PlyUse>(found - std::begin(kNames));
 }
 
 PlyEncoding encodingOf(std::string_view name, const std::filesystem::path& path)
@@ -39,27 +76,35 @@ PlyEncoding encodingOf(std::string_view name, const std::filesystem::path& path)
 void addProperty(TextCursor& words, std::string_view line, PlyHeader& header, const std::filesystem::path& path)
 {
     std::string_view type_name = words.word();
+    const bool is_list = type_name == "list";
     PlyProperty property;
-    if (type_name == "list")
+    if (is_list)
     {
-        property.count_type = typeOf(words.word());
+        property.count_type = findType(words.word());
         type_name = words.word();
-        if (!property.count_type)
-        {
-            throw plyError(path, fmt::format("\"{}\" has an unknown type", line));
-        }
     }
-    const std::optional<PlyType> type = typeOf(type_name);
-    if (!type || header.elements.empty())
+    property.type = findType(type_name);
+    if (property.type == nullptr || (is_list && property.count_type == nullptr) || header.elements.empty())
     {
         throw plyError(path, fmt::format("\"{}\" has an unknown type or no element", line));
     }
-    property.type = *type;
     property.name = words.word();
+    property.use = is_list ? PlyNothing : useOf(property.name);
     header.elements.back().properties.push_back(property);
 }
 
 } // namespace
+
+bool PlyElement::has(std::size_t use) const
+{
+    return std::ranges::find(properties, use, &PlyProperty::use) != properties.end();
+}
+
+bool PlyElement::hasList(std::string_view list) const
+{
+    return std::ranges::any_of(properties, [&](const PlyProperty& property)
+                               { return property.count_type != nullptr && property.name == list; });
+}
 
 PlyHeader readPlyHeader(TextCursor& cursor, const std::filesystem::path& path)
 {
@@ -94,6 +139,10 @@ PlyHeader readPlyHeader(TextCursor& cursor, const std::filesystem::path& path)
         else if (keyword == "property")
         {
             addProperty(words, *line, header, path);
+        }
+        else if (keyword == "comment" && words.word() == "TextureFile")
+        {
+            header.pictures.emplace_back(words.rest());
         }
         else if (!keyword.empty() && keyword != "comment" && keyword != "obj_info" && header.unknown_line.empty())
         {

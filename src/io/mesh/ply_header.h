@@ -7,7 +7,6 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -21,23 +20,42 @@ enum class PlyEncoding // in the order of the names in ply_header.cpp
     BigEndian
 };
 
-enum class PlyType
+/// A type of numbers.
+struct PlyType
 {
-    Int8,
-    UInt8,
-    Int16,
-    UInt16,
-    Int32,
-    UInt32,
-    Float32,
-    Float64
+    std::string_view names[2];
+    std::size_t bytes = 0;
+    double channel_max = 1.0;                     // the divisor of a colour channel
+    double (*value)(const char* bytes) = nullptr; // in the byte order of this machine
+    bool is_single = false;                       // single precision
+};
+
+/// The meaning of a number, as an index into the numbers of a vertex or face.
+enum PlyUse : std::size_t
+{
+    PlyX,
+    PlyY,
+    PlyZ,
+    PlyNormalX,
+    PlyNormalY,
+    PlyNormalZ,
+    PlyRed,
+    PlyGreen,
+    PlyBlue,
+    PlyAlpha,
+    PlyU,
+    PlyV,
+    PlyTexture, // index of a picture
+    PlyNothing,
+    PlyUseCount
 };
 
 struct PlyProperty
 {
     std::string name;
-    PlyType type = PlyType::Float32;
-    std::optional<PlyType> count_type; // of a list
+    PlyUse use = PlyNothing; // of one number
+    const PlyType* type = nullptr;
+    const PlyType* count_type = nullptr; // of a list; null: one number
 };
 
 struct PlyElement
@@ -45,6 +63,11 @@ struct PlyElement
     std::string name;
     std::uint64_t count = 0;
     std::vector<PlyProperty> properties;
+
+    /// Whether it has three numbers of these meanings, from first on.
+    [[nodiscard]] bool hasThree(PlyUse first) const { return has(first) && has(first + 1) && has(first + 2); }
+    [[nodiscard]] bool has(std::size_t use) const;
+    [[nodiscard]] bool hasList(std::string_view list) const;
 };
 
 /// How the data is written, and what it holds, in order.
@@ -53,6 +76,7 @@ struct PlyHeader
     std::string unknown_line; // the first that is not part of the format, such as a comment without its keyword
     PlyEncoding encoding = PlyEncoding::Text;
     std::vector<PlyElement> elements;
+    std::vector<std::string> pictures; // names in comments of MeshLab, "TextureFile"
 };
 
 /// Reads the header. cursor: at the start of the file, and afterwards at the start of the data. path: for messages.

@@ -2,14 +2,18 @@
 #include "io/mesh/stl_file.h"
 
 #include "core/base/input_error.h"
-#include "core/scene/scene_size.h"
 #include "io/file/text_cursor.h"
+#include "io/image/srgb.h"
+#include "io/mesh/mesh_scene.h"
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cstring>
 #include <fmt/format.h>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 namespace zvo
 {
@@ -35,11 +39,62 @@ void addVertices(Primitive& primitive, const std::array<glm::vec3, 3>& corners)
     primitive.triangles.emplace_back(first, first + 1, first + 2);
 }
 
-std::uint32_t facetCount(std::span<const std::uint8_t> bytes)
+template <typename T> T read(std::span<const std::uint8_t> bytes, std::size_t at)
 {
-    std::uint32_t count = 0;
-    std::memcpy(&count, bytes.data() + kHeaderBytes, sizeof(count));
-    return count;
+    T value;
+    std::memcpy(&value, bytes.data() + at, sizeof(value));
+    return value;
+}
+
+/// The 16 bits of a facet.
+std::uint32_t facetBits(std::span<const std::uint8_t> bytes, std::size_t facet)
+{
+    return read<std::uint16_t>(bytes, kFacetsOffset + (facet + 1) * kFacetBytes - sizeof(std::uint16_t));
+}
+
+/// A facet's colour: five bits for each channel, red in the highest or the lowest ones.
+glm::vec4 facetColor(std::uint32_t bits, bool is_red_first)
+{
+    constexpr std::uint32_t kChannelMax = 31;
+    const glm::dvec3 channels(bits >> 10U & kChannelMax, bits >> 5U & kChannelMax, bits & kChannelMax);
+    const double max = kChannelMax;
+    return srgbToLinear(
+        glm::dvec4((is_red_first ? channels : glm::dvec3(channels.z, channels.y, channels.x)) / max, 1.0));
+}
+
+/// Reads the colours of facets. Materialise Magics: the head has a colour of all, behind "COLOR=", and facets without
+/// the highest bit have their own, red in the lowest bits. VisCAM and SolidView: facets with the highest bit have their
+/// own, red in the highest bits; the others are white.
+void readColors(std::span<const std::uint8_t> bytes, SceneBytesLeft& bytes_left, Primitive& primitive)
+{
+    constexpr std::uint32_t kHighest = 1U << 15U;
+    constexpr std::string_view kMark = "COLOR=";
+    const std::size_t facet_count = primitive.triangles.size();
+    const std::string_view head(reinterpret_cast<const char*>(bytes.data()), kHeaderBytes);
+    const std::size_t mark = head.find(kMark);
+    const bool is_magics = mark < kHeaderBytes - kMark.size() - 4;
+    glm::vec4 color_of_all(1.0F);
+    std::uint32_t all_bits = 0;
+    for (std::size_t facet = 0; facet < facet_count; ++facet)
+    {
+        all_bits |= facetBits(bytes, facet);
+    }
+    if (is_magics)
+    {
+        const auto* const color = bytes.data() + mark + kMark.size();
+        color_of_all = srgbToLinear(glm::dvec4(glm::dvec3(color[0], color[1], color[2]) / 255.0, 1.0));
+    }
+    else if ((all_bits & kHighest) == 0)
+    {
+        return;
+    }
+    bytes_left.take(primitive.positions.size() * sizeof(glm::vec4));
+    for (std::size_t facet = 0; facet < facet_count; ++facet)
+    {
+        const std::uint32_t bits = facetBits(bytes, facet);
+        const bool is_own = all_bits != 0 && ((bits & kHighest) != 0) != is_magics; // all 0: nobody has set them
+        primitive.colors.insert(primitive.colors.end(), 3, is_own ? facetColor(bits, !is_magics) : color_of_all);
+    }
 }
 
 Primitive readBinary(const std::filesystem::path& path, std::span<const std::uint8_t> bytes)
@@ -50,23 +105,24 @@ Primitive readBinary(const std::filesystem::path& path, std::span<const std::uin
                                            "starting with \"solid\"; {}",
                                            bytes.size(), kExportAgain));
     }
-    const std::uint32_t facet_count = facetCount(bytes);
+    const auto facet_count = read<std::uint32_t>(bytes, kHeaderBytes);
     if (facet_count > (bytes.size() - kFacetsOffset) / kFacetBytes)
     {
         throw inputError(path, fmt::format("announces {} facets of {} bytes, the STL file has {} bytes for them; {}",
                                            facet_count, kFacetBytes, bytes.size() - kFacetsOffset, kCutShort));
     }
-    SceneBytesLeft(path).take(facet_count * kTriangleBytes);
+    SceneBytesLeft bytes_left(path);
+    bytes_left.take(facet_count * kTriangleBytes);
     Primitive primitive;
     primitive.positions.reserve(3 * std::size_t{facet_count});
     primitive.triangles.reserve(facet_count);
     for (std::uint32_t i = 0; i < facet_count; ++i)
     {
-        std::array<glm::vec3, 3> corners;
-        static_assert(sizeof(corners) == 9 * sizeof(float));
-        std::memcpy(corners.data(), bytes.data() + kFacetsOffset + i * kFacetBytes + kNormalBytes, sizeof(corners));
-        addVertices(primitive, corners);
+        using Corners = std::array<glm::vec3, 3>;
+        static_assert(sizeof(Corners) == 9 * sizeof(float));
+        addVertices(primitive, read<Corners>(bytes, kFacetsOffset + i * kFacetBytes + kNormalBytes));
     }
+    readColors(bytes, bytes_left, primitive);
     return primitive;
 }
 
@@ -85,7 +141,8 @@ public:
         {
             ++m_line_number;
             TextCursor words(*line);
-            const std::string_view keyword = words.word();
+            std::string keyword = lowered(words.word());
+            keyword += keyword == "end" ? lowered(words.word()) : "";
             ended = keyword.empty() ? ended : keyword == "endsolid";
             if (keyword == "vertex")
             {
@@ -158,14 +215,27 @@ private:
 bool isBinaryStl(std::span<const std::uint8_t> content)
 {
     return content.size() >= kFacetsOffset &&
-           content.size() - kFacetsOffset == std::uint64_t{facetCount(content)} * kFacetBytes;
+           content.size() - kFacetsOffset == std::uint64_t{read<std::uint32_t>(content, kHeaderBytes)} * kFacetBytes;
 }
 
-Primitive readStl(const std::filesystem::path& path, std::span<const std::uint8_t> bytes)
+bool isTextStl(std::span<const std::uint8_t> content)
+{
+    constexpr std::size_t kHead = 512; // a binary file has a byte 0 in it, if only in its count of facets
+    const std::string_view text(reinterpret_cast<const char*>(content.data()), std::min(content.size(), kHead));
+    const std::string first = lowered(TextCursor(text).word());
+    return (first == "solid" || first == "facet") && text.find('\0') == text.npos && !isBinaryStl(content);
+}
+
+Scene readStl(const std::filesystem::path& path, std::span<const std::uint8_t> bytes)
 {
     const std::string_view content(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-    const bool is_text = content.starts_with("solid") && !isBinaryStl(bytes);
-    return is_text ? TextReader(path, content).read() : readBinary(path, bytes);
+    MeshScene scene(path, ImageDecoding::WhenLoaded);
+    Material material;
+    material.name = "default";
+    scene.add(std::move(material));
+    std::vector<Primitive> primitives;
+    primitives.push_back(isTextStl(bytes) ? TextReader(path, content).read() : readBinary(path, bytes));
+    return scene.finish(std::move(primitives));
 }
 
 } // namespace zvo

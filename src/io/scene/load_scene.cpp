@@ -5,7 +5,7 @@
 #include "core/base/read_file.h"
 #include "core/file/zvo_file.h"
 #include "core/scene/animation.h"
-#include "core/scene/scene_size.h"
+#include "io/file/text_cursor.h"
 #include "io/gltf/gltf_loader.h"
 #include "io/mesh/obj_file.h"
 #include "io/mesh/ply_file.h"
@@ -13,7 +13,7 @@
 #include "io/scene/hulls.h"
 
 #include <algorithm>
-#include <cctype>
+#include <array>
 #include <cmath>
 #include <fmt/format.h>
 #include <optional>
@@ -36,29 +36,9 @@ enum class FileFormat
     Stl
 };
 
-/// A scene of one mesh, in the default material. notes: what was left out of it.
-Scene sceneOf(const std::filesystem::path& path, Primitive&& mesh, const std::vector<std::string>& notes = {})
-{
-    checkSceneSize(path, {.instance_count = 1,
-                          .triangle_count = static_cast<double>(mesh.triangles.size()),
-                          .vertex_count = static_cast<double>(mesh.positions.size())});
-    Scene scene;
-    scene.primitives.push_back(std::move(mesh));
-    scene.materials.emplace_back().name = "default";
-    scene.instances.emplace_back();
-    for (const std::string& note : notes)
-    {
-        scene.warnings.emplace_back(inputError(path, note).what());
-    }
-    return scene;
-}
-
 std::string lowerExtension(const std::filesystem::path& path)
 {
-    std::string extension = path.extension().string();
-    std::transform(extension.begin(), extension.end(), extension.begin(),
-                   [](unsigned char letter) { return static_cast<char>(std::tolower(letter)); });
-    return extension;
+    return lowered(path.extension().string());
 }
 
 bool hasObjVertices(std::string_view content)
@@ -81,7 +61,7 @@ std::optional<FileFormat> formatOf(std::span<const std::uint8_t> bytes, const st
     {
         return FileFormat::Obj;
     }
-    if (extension == ".stl" || isBinaryStl(bytes) || content.starts_with("solid "))
+    if (extension == ".stl" || isBinaryStl(bytes) || isTextStl(bytes))
     {
         return FileFormat::Stl;
     }
@@ -104,6 +84,11 @@ Scene loadFile(const std::filesystem::path& path, ImageDecoding decoding)
         throw inputError(path, "a .zvo file holds voxels and no triangles; zvo render and zvo convert take it");
     }
     std::vector<std::uint8_t> bytes = readFile(path);
+    constexpr std::array<std::uint8_t, 3> kMark = {0xEF, 0xBB, 0xBF}; // of UTF-8, which editors put before text
+    if (bytes.size() >= kMark.size() && std::equal(kMark.begin(), kMark.end(), bytes.begin()))
+    {
+        bytes.erase(bytes.begin(), bytes.begin() + kMark.size());
+    }
     const std::string extension = lowerExtension(path);
     if (extension == ".vox")
     {
@@ -117,18 +102,14 @@ Scene loadFile(const std::filesystem::path& path, ImageDecoding decoding)
                          "neither glTF 2.0 nor OBJ, PLY or STL; export it as one of them, or name it .gltf, .glb, "
                          ".obj, .ply or .stl");
     }
-    std::vector<std::string> notes;
     switch (*format)
     {
     case FileFormat::Obj:
         return readObj(path, bytes, decoding);
     case FileFormat::Ply:
-    {
-        Primitive mesh = readPly(path, bytes, notes);
-        return sceneOf(path, std::move(mesh), notes);
-    }
+        return readPly(path, bytes, decoding);
     case FileFormat::Stl:
-        return sceneOf(path, readStl(path, bytes));
+        return readStl(path, bytes);
     default:
         return loadGltf(path, std::move(bytes), decoding);
     }

@@ -2,8 +2,8 @@
 #include "io/file/utf16.h"
 #include "io/gltf/gltf_builder.h"
 #include "io/image/image_io.h"
-#include "io/scene/load_scene.h"
 #include "oracle/voxelizer.h"
+#include "support/load_files.h"
 #include "support/mesh_files.h"
 
 #include <cmath>
@@ -17,19 +17,6 @@ namespace zvo::test
 
 namespace
 {
-
-Scene loadText(const std::string& name, const std::string& content)
-{
-    const TempDir dir;
-    const std::filesystem::path path = dir.write(name, content);
-    return loadScene(std::span(&path, 1));
-}
-
-Scene loadIn(const TempDir& dir, const std::string& name)
-{
-    const std::filesystem::path path = dir.path() / name;
-    return loadScene(std::span(&path, 1));
-}
 
 /// The corners of all triangles in sequence.
 std::vector<glm::vec3> cornersOf(const Scene& scene)
@@ -206,7 +193,8 @@ TEST(MeshImport, WhatAnMtlFileNamesWronglyIsAWarning)
     for (const auto& [name, reason] :
          {std::pair(up, "leaves the file's folder"), std::pair((outside.path() / "secret.png").string(), "leaves"),
           std::pair(std::string("link.png"), "leaves"), std::pair(std::string("absent.png"), "no such file"),
-          std::pair(std::string("."), "no such file"), std::pair(std::string("notes.png"), "not a PNG, JPEG, WebP, BMP or TGA")})
+          std::pair(std::string("."), "no such file"),
+          std::pair(std::string("notes.png"), "not a PNG, JPEG, WebP, BMP or TGA")})
     {
         dir.write("a.mtl", "newmtl m\nKd 0 0 0\nmap_Kd " + name + "\n");
         const Scene scene = loadIn(dir, "a.obj");
@@ -236,23 +224,25 @@ TEST(MeshImport, MtlFileIsReadOnceHoweverOftenItIsNamed)
     EXPECT_TRUE(scene.warnings.empty());
 }
 
-TEST(MeshImport, MtlFileMustBeInTheFolder)
+TEST(MeshImport, MtlFilesOutsideOfTheFolderAreLeftOut)
 {
     const TempDir dir;
     const TempDir outside;
     outside.write("b.mtl", std::string_view("newmtl m\nKd 1 0 0\n"));
+    std::filesystem::create_symlink(outside.path() / "b.mtl", dir.path() / "link.mtl");
     const std::string rest = std::string(kTriangle) + "usemtl m\nf 1 2 3\n";
-    for (const std::string& name :
-         {"../" + outside.path().filename().string() + "/b.mtl", (outside.path() / "b.mtl").string(),
-          "..\\" + outside.path().filename().string() + "\\b.mtl"})
+    for (const auto& [name, reason] :
+         {std::pair("../" + outside.path().filename().string() + "/b.mtl", "leaves the folder"),
+          std::pair((outside.path() / "b.mtl").string(), "leaves the folder"),
+          std::pair("..\\" + outside.path().filename().string() + "\\b.mtl", "leaves the folder"),
+          std::pair(std::string("link.mtl"), "leaves the folder"), std::pair(std::string("absent.mtl"), "no material")})
     {
         dir.write("a.obj", "mtllib " + name + "\n" + rest);
-        expectInputError([&] { loadIn(dir, "a.obj"); }, {"a.obj", "b.mtl", "leaves the folder"});
+        const Scene scene = loadIn(dir, "a.obj");
+        EXPECT_EQ(scene.materials.at(0).base_color, glm::vec4(1.0F));
+        expectOneLine(scene.warnings, {"a.obj: colours left out", name, reason});
+        expectInputError([&] { loadIn(dir, "a.obj", {.strict = true}); }, {"a.obj: colours left out", name});
     }
-    dir.write("a.obj", "mtllib absent.mtl\n" + rest);
-    const Scene scene = loadIn(dir, "a.obj");
-    EXPECT_EQ(scene.materials.at(0).base_color, glm::vec4(1.0F));
-    expectOneLine(scene.warnings, {"absent.mtl"});
 }
 
 TEST(MeshImport, BrokenFilesAreInputErrors)
