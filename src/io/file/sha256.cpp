@@ -23,12 +23,7 @@ void check(int result)
 
 } // namespace
 
-void Sha256::FreeContext::operator()(evp_md_ctx_st* context) const
-{
-    EVP_MD_CTX_free(context);
-}
-
-Sha256::Sha256() : m_context(EVP_MD_CTX_new())
+Sha256::Sha256() : m_context(EVP_MD_CTX_new(), EVP_MD_CTX_free)
 {
     check(m_context ? 1 : 0);
     check(EVP_DigestInit_ex(m_context.get(), EVP_sha256(), nullptr));
@@ -41,7 +36,7 @@ void Sha256::update(std::span<const std::byte> bytes)
 
 std::string Sha256::hexDigest() const
 {
-    const Context copy(EVP_MD_CTX_new()); // finishing a context ends it
+    const decltype(m_context) copy(EVP_MD_CTX_new(), EVP_MD_CTX_free); // finishing a context ends it
     check(copy ? 1 : 0);
     check(EVP_MD_CTX_copy_ex(copy.get(), m_context.get()));
     std::array<unsigned char, EVP_MAX_MD_SIZE> digest{};

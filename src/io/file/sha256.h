@@ -25,13 +25,7 @@ public:
     [[nodiscard]] std::string hexDigest() const;
 
 private:
-    struct FreeContext
-    {
-        void operator()(evp_md_ctx_st* context) const;
-    };
-    using Context = std::unique_ptr<evp_md_ctx_st, FreeContext>;
-
-    Context m_context;
+    std::unique_ptr<evp_md_ctx_st, void (*)(evp_md_ctx_st*)> m_context;
 };
 
 /// The digest of bytes in one piece.

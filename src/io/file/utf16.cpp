@@ -28,31 +28,14 @@ bool isAmong(std::uint32_t unit, std::uint32_t first)
     return unit >= first && unit < first + kSurrogates;
 }
 
+/// Appends a byte with the highest bits of a character, and up to three with six bits each.
 void appendUtf8(std::vector<std::uint8_t>& utf8, std::uint32_t character)
 {
-    const auto push = [&](std::uint32_t byte) { utf8.push_back(static_cast<std::uint8_t>(byte)); };
-    const auto pushTail = [&](std::uint32_t shift) { push(0x80U | ((character >> shift) & 0x3FU)); };
-    if (character < 0x80)
+    std::uint32_t tail = character < 0x80 ? 0 : character < 0x800 ? 1 : character < kSupplementary ? 2 : 3;
+    const std::uint32_t mark = tail == 0 ? 0 : 0xFFU << (7 - tail) & 0xFFU;
+    for (utf8.push_back(static_cast<std::uint8_t>(mark | character >> 6 * tail)); tail != 0;)
     {
-        push(character);
-    }
-    else if (character < 0x800)
-    {
-        push(0xC0U | (character >> 6U));
-        pushTail(0);
-    }
-    else if (character < kSupplementary)
-    {
-        push(0xE0U | (character >> 12U));
-        pushTail(6);
-        pushTail(0);
-    }
-    else
-    {
-        push(0xF0U | (character >> 18U));
-        pushTail(12);
-        pushTail(6);
-        pushTail(0);
+        utf8.push_back(static_cast<std::uint8_t>(0x80U | (character >> 6 * --tail & 0x3FU)));
     }
 }
 

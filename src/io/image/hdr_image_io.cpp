@@ -7,19 +7,26 @@
 #include <OpenEXR/ImfChannelList.h>
 #include <OpenEXR/ImfFrameBuffer.h>
 #include <OpenEXR/ImfHeader.h>
-#include <OpenEXR/ImfIO.h>
 #include <OpenEXR/ImfInputFile.h>
 #include <OpenEXR/ImfOutputFile.h>
+#include <OpenEXR/ImfStdIO.h>
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
-#include <cinttypes>
+#include <climits>
 #include <cmath>
-#include <cstdio>
+#include <cstdlib>
 #include <cstring>
-#include <stdexcept>
+#include <memory>
 #include <string_view>
+
+#define STB_IMAGE_STATIC
+#define STB_IMAGE_IMPLEMENTATION
+#define STBI_ONLY_HDR
+#define STBI_NO_STDIO
+#define STBI_NO_FAILURE_STRINGS
+#include <stb/stb_image.h>
 
 namespace zvo
 {
@@ -51,215 +58,59 @@ void checkTexels(std::int64_t width, std::int64_t height, const std::string& whe
     }
 }
 
-// Reads a Radiance picture (G. Ward, Real Pixels, in Graphics Gems II, 1991, and the format's description in Radiance).
-// stb's decoder does not end for some files that are cut off.
-class RadianceReader
+/// The bytes that stb has not read yet. It waits without an end for the rest of a row that is cut off, so behind the
+/// bytes there are others, which end any row.
+struct RadianceBytes
 {
-public:
-    RadianceReader(std::span<const std::uint8_t> bytes, const std::string& where) : m_bytes(bytes), m_where(where) {}
-
-    HdrImage read()
-    {
-        readHeader();
-        HdrImage image = readSize();
-        image.texels.reserve(std::size_t{image.width} * image.height);
-        std::vector<Texel> row(image.width);
-        for (std::uint32_t y = 0; y < image.height; ++y)
-        {
-            readRow(row);
-            for (const Texel& texel : row)
-            {
-                const float step = texel[3] == 0 ? 0.0F : std::ldexp(1.0F, int{texel[3]} - kExponentBias);
-                image.texels.push_back(step * glm::vec3(texel[0], texel[1], texel[2]));
-            }
-        }
-        return image;
-    }
-
-private:
-    using Texel = std::array<std::uint8_t, 4>; // three mantissas and an exponent
-
-    static constexpr int kExponentBias = 128 + 8;
-    static constexpr std::uint8_t kRowMark = 2;      // twice, before a row of runs
-    static constexpr std::uint8_t kRunMark = 128;    // lengths above it are those of runs
-    static constexpr std::uint32_t kRowMin = 8;      // texels of a row of runs
-    static constexpr std::uint32_t kRowMax = 0x7FFF; // likewise
-
-    [[nodiscard]] Error fault(const std::string& what) const
-    {
-        return imageError(m_where, "the Radiance picture does not decode (" + what + ")");
-    }
-
-    std::uint8_t next()
-    {
-        if (m_at == m_bytes.size())
-        {
-            throw fault("unexpected end of file");
-        }
-        return m_bytes[m_at++];
-    }
-
-    std::string readLine()
-    {
-        constexpr std::size_t kLineMax = 4096;
-        std::string line;
-        for (char letter = static_cast<char>(next()); letter != '\n'; letter = static_cast<char>(next()))
-        {
-            line += letter;
-            if (line.size() > kLineMax)
-            {
-                throw fault("a line of its header has no end");
-            }
-        }
-        return line;
-    }
-
-    void readHeader()
-    {
-        bool has_format = false;
-        for (std::string line = readLine(); !line.empty(); line = readLine())
-        {
-            has_format = has_format || line == "FORMAT=32-bit_rle_rgbe";
-        }
-        if (!has_format)
-        {
-            throw fault("its format is not 32-bit_rle_rgbe");
-        }
-    }
-
-    HdrImage readSize()
-    {
-        const std::string line = readLine();
-        std::int64_t width = 0;
-        std::int64_t height = 0;
-        int end = 0;
-        if (std::sscanf(line.c_str(), "-Y %9" SCNd64 " +X %9" SCNd64 "%n", &height, &width, &end) != 2 ||
-            static_cast<std::size_t>(end) != line.size())
-        {
-            throw fault("its size is not given as -Y HEIGHT +X WIDTH");
-        }
-        checkTexels(width, height, m_where);
-        constexpr std::uint64_t kTexelsPerByteMax = kImageEdgeMax; // of the oldest runs
-        if (static_cast<std::uint64_t>(width * height) > kTexelsPerByteMax * m_bytes.size())
-        {
-            throw fault("it announces more texels than its bytes can hold");
-        }
-        return {static_cast<std::uint32_t>(width), static_cast<std::uint32_t>(height), {}};
-    }
-
-    void readRow(std::vector<Texel>& row)
-    {
-        const std::span<const std::uint8_t> rest = m_bytes.subspan(m_at);
-        if (row.size() >= kRowMin && row.size() <= kRowMax && rest.size() >= 4 && rest[0] == kRowMark &&
-            rest[1] == kRowMark && (std::size_t{rest[2]} << 8 | rest[3]) == row.size())
-        {
-            m_at += 4;
-            for (std::size_t channel = 0; channel < Texel().size(); ++channel)
-            {
-                readRuns(row, channel);
-            }
-            return;
-        }
-        readOldRow(row);
-    }
-
-    // The values of a channel: runs of one value, and stretches of several.
-    void readRuns(std::vector<Texel>& row, std::size_t channel)
-    {
-        for (std::size_t x = 0; x < row.size();)
-        {
-            const std::uint8_t code = next();
-            const std::size_t length = code > kRunMark ? code - kRunMark : code;
-            if (length == 0 || length > row.size() - x)
-            {
-                throw fault("a run is longer than its row");
-            }
-            std::uint8_t value = 0;
-            for (std::size_t i = 0; i < length; ++i)
-            {
-                value = i == 0 || code <= kRunMark ? next() : value;
-                row[x++][channel] = value;
-            }
-        }
-    }
-
-    // Texels one by one. One of (1, 1, 1, n) repeats the texel before it n times; several of them in a row give the
-    // digits of n.
-    void readOldRow(std::vector<Texel>& row)
-    {
-        int shift = 0;
-        for (std::size_t x = 0; x < row.size();)
-        {
-            const Texel texel = {next(), next(), next(), next()};
-            if (texel[0] != 1 || texel[1] != 1 || texel[2] != 1)
-            {
-                row[x++] = texel;
-                shift = 0;
-                continue;
-            }
-            const std::size_t count = shift < 32 ? std::size_t{texel[3]} << shift : row.size() + 1;
-            if (x == 0 || count > row.size() - x)
-            {
-                throw fault("a run is longer than its row");
-            }
-            std::fill_n(row.begin() + static_cast<std::ptrdiff_t>(x), count, row[x - 1]);
-            x += count;
-            shift += 8;
-        }
-    }
-
-    std::span<const std::uint8_t> m_bytes;
-    const std::string& m_where;
-    std::size_t m_at = 0;
+    std::span<const std::uint8_t> rest;
+    int is_cut_off = 0;
 };
 
-// The bytes of a picture as OpenEXR reads them.
-class ByteStream : public Imf::IStream
+int readRadiance(void* source, char* to, int count)
 {
-public:
-    ByteStream(std::span<const std::uint8_t> bytes, const std::string& name) : IStream(name.c_str()), m_bytes(bytes) {}
+    auto& bytes = *static_cast<RadianceBytes*>(source);
+    const std::size_t taken = std::min(bytes.rest.size(), static_cast<std::size_t>(count));
+    bytes.is_cut_off = taken == 0 ? 1 : 0;
+    std::memset(to, UINT8_MAX, static_cast<std::size_t>(count));
+    std::copy_n(bytes.rest.begin(), taken, to);
+    bytes.rest = bytes.rest.subspan(taken);
+    return count;
+}
 
-    bool read(char to[], int count) override
-    {
-        if (count < 0 || static_cast<std::uint64_t>(count) > m_bytes.size() - m_at)
-        {
-            throw std::runtime_error("unexpected end of file");
-        }
-        std::memcpy(to, m_bytes.data() + m_at, static_cast<std::size_t>(count));
-        m_at += static_cast<std::uint64_t>(count);
-        return m_at < m_bytes.size();
-    }
-
-    std::uint64_t tellg() override { return m_at; }
-    void seekg(std::uint64_t at) override { m_at = std::min<std::uint64_t>(at, m_bytes.size()); }
-    void clear() override {}
-
-private:
-    std::span<const std::uint8_t> m_bytes;
-    std::uint64_t m_at = 0;
-};
-
-class ByteSink : public Imf::OStream
+/// Reads a Radiance picture (G. Ward, Real Pixels, in Graphics Gems II, 1991), flat or in runs by channel.
+HdrImage decodeRadiance(std::span<const std::uint8_t> encoded, const std::string& where)
 {
-public:
-    ByteSink() : OStream("picture") {}
-
-    void write(const char from[], int count) override
+    const auto fault = [&](const std::string& what)
+    { return imageError(where, "the Radiance picture does not decode (" + what + ")"); };
+    int width = 0;
+    int height = 0;
+    int channels = 0;
+    constexpr std::size_t kBytesMax = INT_MAX;
+    if (stbi_info_from_memory(encoded.data(), static_cast<int>(std::min(encoded.size(), kBytesMax)), &width, &height,
+                              &channels) == 0)
     {
-        const auto end = m_at + static_cast<std::uint64_t>(count);
-        bytes.resize(std::max<std::size_t>(bytes.size(), end));
-        std::memcpy(bytes.data() + m_at, from, static_cast<std::size_t>(count));
-        m_at = end;
+        throw fault("its head has no format 32-bit_rle_rgbe and no size -Y HEIGHT +X WIDTH");
     }
-
-    std::uint64_t tellp() override { return m_at; }
-    void seekp(std::uint64_t at) override { m_at = at; }
-
-    std::vector<std::uint8_t> bytes;
-
-private:
-    std::uint64_t m_at = 0;
-};
+    checkTexels(width, height, where);
+    constexpr std::uint64_t kTexelsPerByteMax = 16; // runs of 127 texels take 8 bytes
+    if (static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height) > kTexelsPerByteMax * encoded.size())
+    {
+        throw fault("it announces more texels than its bytes can hold");
+    }
+    RadianceBytes bytes = {encoded};
+    constexpr stbi_io_callbacks kCallbacks = {
+        readRadiance, [](void*, int) {}, [](void* source) { return static_cast<RadianceBytes*>(source)->is_cut_off; }};
+    const std::unique_ptr<float, decltype(&std::free)> texels(
+        stbi_loadf_from_callbacks(&kCallbacks, &bytes, &width, &height, &channels, kHdrChannels), std::free);
+    if (!texels || bytes.is_cut_off != 0)
+    {
+        throw fault("a row of it is damaged, or it is cut off");
+    }
+    HdrImage image = {static_cast<std::uint32_t>(width), static_cast<std::uint32_t>(height), {}};
+    image.texels.resize(std::size_t{image.width} * image.height);
+    std::memcpy(image.texels.data(), texels.get(), image.texels.size() * sizeof(glm::vec3));
+    return image;
+}
 
 // Names of the channels that become red, green and blue.
 std::array<const char*, kHdrChannels> channelsOf(const Imf::Header& header, const std::string& where)
@@ -311,7 +162,8 @@ HdrImage decodeExr(std::span<const std::uint8_t> encoded, const std::string& whe
 {
     try
     {
-        ByteStream stream(encoded, where);
+        Imf::StdISStream stream;
+        stream.str({reinterpret_cast<const char*>(encoded.data()), encoded.size()});
         Imf::InputFile file(stream, 0);
         return readExr(file, where);
     }
@@ -364,7 +216,7 @@ HdrImage decodeHdrImage(std::span<const std::uint8_t> encoded, const std::string
     {
         throw imageError(where, "neither a Radiance (.hdr) nor an OpenEXR (.exr) picture");
     }
-    HdrImage image = is_exr ? decodeExr(encoded, where) : RadianceReader(encoded, where).read();
+    HdrImage image = is_exr ? decodeExr(encoded, where) : decodeRadiance(encoded, where);
     repair(image, where, warnings);
     return image;
 }
@@ -373,7 +225,7 @@ std::vector<std::uint8_t> encodeExr(const HdrImage& image, std::span<const ExrCh
 {
     try
     {
-        ByteSink sink;
+        Imf::StdOSStream sink;
         {
             Imf::Header header(static_cast<int>(image.width), static_cast<int>(image.height));
             Imf::FrameBuffer buffer;
@@ -393,7 +245,8 @@ std::vector<std::uint8_t> encodeExr(const HdrImage& image, std::span<const ExrCh
             file.setFrameBuffer(buffer);
             file.writePixels(static_cast<int>(image.height));
         }
-        return std::move(sink.bytes);
+        const std::string bytes = sink.str();
+        return {bytes.begin(), bytes.end()};
     }
     catch (const std::exception& error)
     {

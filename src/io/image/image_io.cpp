@@ -75,6 +75,21 @@ void appendBytes(void* context, void* data, int count)
     bytes.insert(bytes.end(), first, first + count);
 }
 
+/// What a writer of stb makes of a picture.
+template <typename Write, typename... Rest>
+std::vector<std::uint8_t> encoded(const char* kind, std::uint32_t width, std::uint32_t height, Write* write,
+                                  Rest... rest)
+{
+    std::vector<std::uint8_t> bytes;
+    if (write(appendBytes, &bytes, static_cast<int>(width), static_cast<int>(height), rest...) == 0)
+    {
+        throw Error(ErrorCode::Memory, fmt::format("cannot encode a picture of {} x {} pixels as {}: not enough "
+                                                   "memory; make it smaller",
+                                                   width, height, kind));
+    }
+    return bytes;
+}
+
 // Throws if a picture is too large, or takes more than bytes_max bytes decoded.
 void checkSize(int width, int height, std::uint64_t bytes_max, const std::string& where)
 {
@@ -259,16 +274,8 @@ std::vector<std::uint8_t> encodePng(std::uint32_t width, std::uint32_t height, s
 {
     assert(width > 0 && height > 0 && std::max(width, height) <= kImageEdgeMax);
     assert(rgba.size() == std::size_t{width} * height * kChannels);
-    std::vector<std::uint8_t> png;
     const auto row_bytes = static_cast<int>(width) * kChannels;
-    if (stbi_write_png_to_func(appendBytes, &png, static_cast<int>(width), static_cast<int>(height), kChannels,
-                               rgba.data(), row_bytes) == 0)
-    {
-        throw Error(ErrorCode::Memory, fmt::format("cannot encode a picture of {} x {} pixels as PNG: not enough "
-                                                   "memory; make it smaller",
-                                                   width, height));
-    }
-    return png;
+    return encoded("PNG", width, height, stbi_write_png_to_func, kChannels, rgba.data(), row_bytes);
 }
 
 std::vector<std::uint8_t> encodeJpeg(std::uint32_t width, std::uint32_t height, std::span<const std::uint8_t> rgba,
@@ -276,27 +283,12 @@ std::vector<std::uint8_t> encodeJpeg(std::uint32_t width, std::uint32_t height, 
 {
     assert(width > 0 && height > 0 && std::max(width, height) <= kImageEdgeMax && quality > 0 && quality <= 100);
     assert(rgba.size() == std::size_t{width} * height * kChannels);
-    std::vector<std::uint8_t> jpeg;
-    if (stbi_write_jpg_to_func(appendBytes, &jpeg, static_cast<int>(width), static_cast<int>(height), kChannels,
-                               rgba.data(), static_cast<int>(quality)) == 0)
-    {
-        throw Error(ErrorCode::Memory, fmt::format("cannot encode a picture of {} x {} pixels as JPEG: not enough "
-                                                   "memory; make it smaller",
-                                                   width, height));
-    }
-    return jpeg;
+    return encoded("JPEG", width, height, stbi_write_jpg_to_func, kChannels, rgba.data(), static_cast<int>(quality));
 }
 
 std::vector<std::uint8_t> encodeHdr(const HdrImage& image)
 {
-    constexpr int kRgb = 3;
-    std::vector<std::uint8_t> bytes;
-    if (stbi_write_hdr_to_func(appendBytes, &bytes, static_cast<int>(image.width), static_cast<int>(image.height), kRgb,
-                               &image.texels.front().x) == 0)
-    {
-        throw Error(ErrorCode::Memory, "cannot encode a Radiance picture: not enough memory; make it smaller");
-    }
-    return bytes;
+    return encoded("Radiance", image.width, image.height, stbi_write_hdr_to_func, 3, &image.texels.front().x);
 }
 
 Error imageError(const std::string& where, const std::string& what)

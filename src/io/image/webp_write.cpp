@@ -61,28 +61,23 @@ private:
     WebPPicture m_picture;
 };
 
-int appendBytes(const std::uint8_t* data, std::size_t count, const WebPPicture* picture)
-{
-    auto& bytes = *static_cast<std::vector<std::uint8_t>*>(picture->custom_ptr);
-    bytes.insert(bytes.end(), data, data + count);
-    return 1;
-}
-
 } // namespace
 
 std::vector<std::uint8_t> encodeWebp(std::uint32_t width, std::uint32_t height, std::span<const std::uint8_t> rgba,
                                      std::uint32_t quality)
 {
-    std::vector<std::uint8_t> webp;
+    WebPMemoryWriter writer;
+    WebPMemoryWriterInit(&writer);
+    const std::unique_ptr<WebPMemoryWriter, decltype(&WebPMemoryWriterClear)> owner(&writer, WebPMemoryWriterClear);
     Source source(width, height, rgba);
-    source->writer = appendBytes;
-    source->custom_ptr = &webp;
+    source->writer = WebPMemoryWrite;
+    source->custom_ptr = &writer;
     const WebPConfig config = configOf(quality);
     if (WebPEncode(&config, source.get()) == 0)
     {
         fail(width, height);
     }
-    return webp;
+    return {writer.mem, writer.mem + writer.size};
 }
 
 struct WebpAnimation::Encoder

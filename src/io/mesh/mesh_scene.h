@@ -16,14 +16,14 @@ namespace zvo
 
 /// The file that a mesh file names, or another file beside it (named_in): as it is named, below the folder of either,
 /// or else by its last component there. Names may have the slashes of Windows. Nothing if there is no such file in the
-/// folder of mesh or below.
+/// folder of mesh or below, after all links.
 std::optional<std::filesystem::path> findBeside(const std::filesystem::path& mesh,
                                                 const std::filesystem::path& named_in, std::string name);
 
-/// Whether the name of a file leads out of the folder of mesh, through links, too.
-bool leavesFolder(const std::filesystem::path& mesh, std::string name);
+/// What a warning says where findBeside() finds nothing.
+inline constexpr const char* kNotBeside = "there is no such file in the file's folder or below; put it there";
 
-/// The scene of a mesh file while it is read. Both references stay with the caller.
+/// The scene of a mesh file while it is read. path: stays with the caller.
 class MeshScene
 {
 public:
@@ -32,20 +32,18 @@ public:
     /// Adds a warning about what is left out of the file, once for each text.
     void warn(const std::string& what);
 
-    /// Adds a material; returns its index.
-    std::uint32_t add(Material material);
+    /// Adds a primitive with an instance and a material of its own.
+    void add(Primitive primitive, Material material = {}, const std::string& name = "default");
 
     /// Adds a texture of the picture that is named in the file named_in; returns its index. Nothing, with a warning, if
     /// there is none that can be used.
     std::optional<std::uint32_t> addTexture(const std::string& name, const std::filesystem::path& named_in,
                                             WrapMode wrap);
 
-    /// The scene with an instance of each of these primitives. Throws Error{Input} where they are too many or too long.
-    Scene finish(std::vector<Primitive> primitives);
+    /// The scene. Throws Error{Input} where primitives are too many or too long.
+    Scene finish();
 
 private:
-    std::optional<std::uint32_t> addImage(const std::string& name, const std::filesystem::path& named_in);
-
     const std::filesystem::path& m_path;
     ImageDecoding m_decoding;
     std::uint64_t m_image_bytes_left = sceneBytesMax();

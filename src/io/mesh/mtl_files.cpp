@@ -22,7 +22,7 @@ std::vector<glm::vec2> placed(const std::vector<glm::vec2>& uvs, const MtlTextur
     moved.reserve(uvs.size());
     for (const glm::vec2& uv : uvs)
     {
-        const glm::vec2 up = uv * texture.scale + texture.offset;
+        const glm::vec2 up = uv * glm::vec2(texture.scale) + glm::vec2(texture.offset);
         moved.emplace_back(up.x, 1.0F - up.y);
     }
     return moved;
@@ -36,24 +36,14 @@ void MtlFiles::read(std::string_view names)
     {
         return;
     }
-    std::vector<std::string> missing;
     TextCursor words(names);
     for (std::string name(words.word()); !name.empty(); name = words.word())
     {
         if (!readFileNamed(name))
         {
-            missing.push_back(name);
+            m_all_found = false;
+            m_scene.warn(fmt::format("colours left out: {}: {}", names, kNotBeside));
         }
-    }
-    const std::string name(missing.size() == 1 ? missing.front() : names);
-    if (!missing.empty())
-    {
-        m_all_found = false;
-        m_scene.warn(leavesFolder(m_path, name)
-                         ? fmt::format("colours left out, as the material file {} leaves the folder; only files in it "
-                                       "and below are read; put it there and name it",
-                                       name)
-                         : fmt::format("colours left out, as there is no material file {}", name));
     }
 }
 
@@ -88,6 +78,10 @@ bool MtlFiles::readFileNamed(const std::string& name)
 
 void MtlFiles::readStatement(std::string_view line, const std::filesystem::path& file, MtlMaterial& material)
 {
+    constexpr std::pair<std::string_view, MtlTexture MtlMaterial::*> kTextures[] = {
+        {"map_kd", &MtlMaterial::color_texture},
+        {"map_ke", &MtlMaterial::emission_texture},
+        {"map_d", &MtlMaterial::cut_out}};
     TextCursor words(line);
     const std::string keyword = lowered(words.word());
     if (keyword == "kd")
@@ -98,44 +92,36 @@ void MtlFiles::readStatement(std::string_view line, const std::filesystem::path&
     {
         material.emission = readColor(line, words);
     }
-    else if (keyword == "d")
+    else if (keyword == "d" || keyword == "tr")
     {
-        material.opacity = readFraction(line, words);
+        (keyword == "d" ? material.opacity : material.transparency) = readFraction(line, words);
     }
-    else if (keyword == "tr")
+    for (const auto& [name, texture] : kTextures)
     {
-        material.transparency = readFraction(line, words).value_or(0.0F);
-    }
-    else if (keyword == "map_kd")
-    {
-        material.color_texture = readTexture(words, file);
-    }
-    else if (keyword == "map_ke")
-    {
-        material.emission_texture = readTexture(words, file);
-    }
-    else if (keyword == "map_d")
-    {
-        material.cut_out = readTexture(words, file);
+        if (keyword == name)
+        {
+            material.*texture = readTexture(words, file);
+        }
     }
 }
 
 /// Three numbers, or one for all three. Nothing, with a warning, for anything else.
 std::optional<glm::vec3> MtlFiles::readColor(std::string_view line, TextCursor words)
 {
-    std::vector<float> numbers;
-    for (auto word = words.word(); !word.empty() && numbers.size() < 3; word = words.word())
+    glm::vec3 color(0.0F);
+    int count = 0;
+    for (auto word = words.word(); !word.empty() && count < 3; word = words.word())
     {
-        numbers.push_back(parseSingle(word).value_or(-1.0F));
+        const float number = parseSingle(word).value_or(-1.0F);
+        count = number >= 0.0F && std::isfinite(number) ? count + 1 : 4; // 4: no colour
+        color[std::min(count, 3) - 1] = number;
     }
-    const bool is_valid = std::all_of(numbers.begin(), numbers.end(),
-                                      [](float number) { return number >= 0.0F && std::isfinite(number); });
-    if (!is_valid || numbers.empty() || numbers.size() == 2)
+    if (count != 1 && count != 3)
     {
         m_scene.warn(fmt::format("colour left out: \"{}\" has not three numbers of at least 0", line));
         return std::nullopt;
     }
-    return numbers.size() == 1 ? glm::vec3(numbers[0]) : glm::vec3(numbers[0], numbers[1], numbers[2]);
+    return count == 1 ? glm::vec3(color.x) : color;
 }
 
 /// A number from 0 to 1, which "-halo" may precede. Nothing, with a warning, for anything else.
@@ -154,35 +140,28 @@ std::optional<float> MtlFiles::readFraction(std::string_view line, TextCursor wo
 /// The name stands behind the options. "-s", "-o" and "-t" have up to three numbers.
 MtlTexture MtlFiles::readTexture(TextCursor words, const std::filesystem::path& file)
 {
-    MtlTexture texture;
-    texture.named_in = file;
+    MtlTexture texture{.named_in = file};
     TextCursor rest = words;
     for (auto option = words.word(); option.starts_with('-'); rest = words, option = words.word())
     {
-        if (option == "-s" || option == "-o" || option == "-t")
+        const bool is_vector = option == "-s" || option == "-o" || option == "-t";
+        glm::vec3 ignored(0.0F);
+        auto* const numbers = option == "-s" ? &texture.scale : option == "-o" ? &texture.offset : &ignored;
+        TextCursor ahead = words;
+        for (int i = 0; is_vector && i < 3; ++i, words = ahead)
         {
-            glm::vec3 ignored(0.0F);
-            TextCursor ahead = words;
-            for (int i = 0; i < 3; ++i, words = ahead)
+            const std::optional<float> number = parseSingle(ahead.word());
+            if (!number)
             {
-                const std::optional<float> number = parseSingle(ahead.word());
-                if (!number)
-                {
-                    break;
-                }
-                (option == "-t" || i == 2 ? ignored[i]
-                 : option == "-s"         ? texture.scale[i]
-                                          : texture.offset[i]) = *number;
+                break;
             }
+            (*numbers)[i] = *number;
         }
-        else if (option == "-mm")
+        const std::string_view value = is_vector ? "" : words.word();
+        texture.wrap = option == "-clamp" && value == "on" ? WrapMode::ClampToEdge : texture.wrap;
+        if (option == "-mm")
         {
             words.word();
-            words.word();
-        }
-        else if (const std::string_view value = words.word(); option == "-clamp" && value == "on")
-        {
-            texture.wrap = WrapMode::ClampToEdge;
         }
         if (option == "-t" || option == "-mm")
         {
@@ -198,7 +177,7 @@ std::optional<std::uint32_t> MtlFiles::addTexture(const MtlTexture& texture)
     return texture.name.empty() ? std::nullopt : m_scene.addTexture(texture.name, texture.named_in, texture.wrap);
 }
 
-std::uint32_t MtlFiles::add(const std::string& name)
+void MtlFiles::add(Primitive primitive, const std::string& name)
 {
     const auto found = m_materials.find(name);
     if (found == m_materials.end() && !name.empty() && m_all_found)
@@ -207,11 +186,10 @@ std::uint32_t MtlFiles::add(const std::string& name)
     }
     static const MtlMaterial kWhite;
     const MtlMaterial& source = found == m_materials.end() ? kWhite : found->second;
-    m_added.push_back(&source);
     Material material;
-    material.name = name.empty() ? "default" : name;
     // MeshLab and 3ds Max write "Tr 1" where they mean opaque; nobody exports what cannot be seen.
-    const float opacity = source.opacity.value_or(source.transparency < 1.0F ? 1.0F - source.transparency : 1.0F);
+    const float transparency = source.transparency.value_or(0.0F);
+    const float opacity = source.opacity.value_or(transparency < 1.0F ? 1.0F - transparency : 1.0F);
     // Black would hide the texture, even one that cannot be used, which exporters do not mean.
     const bool is_hidden = !source.color_texture.name.empty() && source.color == glm::vec3(0.0F);
     material.base_color = glm::vec4(is_hidden ? glm::vec3(1.0F) : source.color, opacity);
@@ -230,19 +208,15 @@ std::uint32_t MtlFiles::add(const std::string& name)
     {
         m_scene.warn("textures of transparency (map_d) left out; put them into the alpha of the colour textures");
     }
-    return m_scene.add(std::move(material));
-}
-
-void MtlFiles::placeTextures(Primitive& primitive) const
-{
-    const MtlTexture& color = m_added[primitive.material]->color_texture;
-    const MtlTexture& emission = m_added[primitive.material]->emission_texture;
+    const MtlTexture& color = source.color_texture;
+    const MtlTexture& emission = source.emission_texture;
     const bool has_both = !color.name.empty() && !emission.name.empty();
     if (has_both && (color.scale != emission.scale || color.offset != emission.offset))
     {
         primitive.emission_uvs = placed(primitive.uvs, emission);
     }
     primitive.uvs = placed(primitive.uvs, color.name.empty() ? emission : color);
+    m_scene.add(std::move(primitive), std::move(material), name.empty() ? "default" : name);
 }
 
 } // namespace zvo

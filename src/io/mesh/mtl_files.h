@@ -10,7 +10,6 @@
 #include <set>
 #include <string>
 #include <string_view>
-#include <vector>
 
 namespace zvo
 {
@@ -18,11 +17,11 @@ namespace zvo
 /// A picture that a material file names, and where it lies: texture coordinates are scaled, then moved.
 struct MtlTexture
 {
-    std::string name; // empty: none
+    std::string name = {}; // empty: none
     std::filesystem::path named_in;
     WrapMode wrap = WrapMode::Repeat;
-    glm::vec2 scale{1.0F};
-    glm::vec2 offset{0.0F};
+    glm::vec3 scale{1.0F}; // the third number is that of solid textures
+    glm::vec3 offset{0.0F};
 };
 
 /// What a material file says about a material.
@@ -30,8 +29,8 @@ struct MtlMaterial
 {
     glm::vec3 color{1.0F};
     std::optional<glm::vec3> emission;
-    std::optional<float> opacity; // "d"
-    float transparency = 0.0F;    // "Tr"
+    std::optional<float> opacity;      // "d"
+    std::optional<float> transparency; // "Tr"
     MtlTexture color_texture;
     MtlTexture emission_texture;
     MtlTexture cut_out;
@@ -49,11 +48,9 @@ public:
     /// material, the first counts.
     void read(std::string_view names);
 
-    /// Adds a material, which is white if no file defines it; returns its index.
-    std::uint32_t add(const std::string& name);
-
-    /// Moves texture coordinates, whose v points up until then, to where the textures of the primitive's material lie.
-    void placeTextures(Primitive& primitive) const;
+    /// Adds a primitive to the scene, with a material, which is white if no file defines it. The v of its texture
+    /// coordinates points up; they are moved to where the material's textures lie.
+    void add(Primitive primitive, const std::string& name);
 
 private:
     bool readFileNamed(const std::string& name);
@@ -68,7 +65,6 @@ private:
     bool m_all_found = true;
     std::set<std::filesystem::path> m_files;
     std::map<std::string, MtlMaterial> m_materials;
-    std::vector<const MtlMaterial*> m_added; // [index of the material]
 };
 
 } // namespace zvo

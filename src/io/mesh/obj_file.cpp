@@ -4,7 +4,6 @@
 #include "core/base/finite.h"
 #include "core/base/input_error.h"
 #include "io/file/text_cursor.h"
-#include "io/file/utf16.h"
 #include "io/image/srgb.h"
 #include "io/mesh/mtl_files.h"
 #include "io/mesh/polygon_triangulator.h"
@@ -54,12 +53,12 @@ public:
             throw inputError(m_path, fmt::format("not a valid OBJ file: it has no vertices; {}", kExportAgain));
         }
         forEachStatement([this](std::string_view keyword) { readFaces(keyword); });
-        for (Primitive& primitive : m_primitives)
+        for (auto& [material, primitive] : m_primitives)
         {
             fillUp(primitive, primitive.positions.size());
-            m_materials.placeTextures(primitive);
+            m_materials.add(std::move(primitive), material);
         }
-        return m_scene.finish(std::move(m_primitives));
+        return m_scene.finish();
     }
 
 private:
@@ -159,8 +158,8 @@ private:
         }
         else if (keyword == "usemtl")
         {
+            m_primitive = nullptr;
             m_material = m_words.rest();
-            m_primitive = kNone;
         }
         else if (keyword == "l" || keyword == "p")
         {
@@ -179,11 +178,9 @@ private:
     void readFace()
     {
         m_corners.clear();
-        m_corner_positions.clear();
         for (std::string_view text = word(); !text.empty(); text = word())
         {
             m_corners.push_back(readCorner(text));
-            m_corner_positions.push_back(m_lists[Positions][m_corners.back()[Positions]]);
         }
         const std::size_t count = m_corners.size();
         if (count < 3)
@@ -191,14 +188,12 @@ private:
             m_scene.warn(kNoTriangles);
             return;
         }
-        Primitive& primitive = currentPrimitive();
+        m_primitive = m_primitive == nullptr ? &m_primitives[m_material] : m_primitive;
         m_vertices.clear();
-        for (const Corner& corner : m_corners)
-        {
-            m_vertices.push_back(addVertex(corner, primitive));
-        }
+        std::ranges::for_each(m_corners, [this](const Corner& corner) { addVertex(corner, *m_primitive); });
         m_bytes_left.take((count > 4 ? 2 * count : count - 2) * sizeof(glm::uvec3)); // PolygonTriangulator
-        m_triangulator.triangulate(m_corner_positions, m_vertices, primitive.triangles);
+        const std::span<const glm::vec3> positions(m_primitive->positions);
+        m_triangulator.triangulate(positions.last(count), m_vertices, m_primitive->triangles);
     }
 
     /// A corner of a face, such as "3/1/2" or "-1//-1". Negative numbers count back from the line.
@@ -228,7 +223,7 @@ private:
         return corner;
     }
 
-    std::uint32_t addVertex(const Corner& corner, Primitive& primitive)
+    void addVertex(const Corner& corner, Primitive& primitive)
     {
         const std::size_t before = primitive.positions.size();
         m_bytes_left.take(sizeof(glm::vec3) + (corner[Normals] != kNone ? sizeof(glm::vec3) : 0) +
@@ -249,7 +244,7 @@ private:
             primitive.colors.resize(before, glm::vec4(1.0F));
             primitive.colors.push_back(m_colors[corner[Positions]]);
         }
-        return static_cast<std::uint32_t>(before);
+        m_vertices.push_back(static_cast<std::uint32_t>(before));
     }
 
     /// Gives vertices without them no normals, coordinates of 0 and a white colour, where others have them.
@@ -258,21 +253,6 @@ private:
         primitive.normals.resize(primitive.normals.empty() ? 0 : vertex_count);
         primitive.uvs.resize(primitive.uvs.empty() ? 0 : vertex_count);
         primitive.colors.resize(primitive.colors.empty() ? 0 : vertex_count, glm::vec4(1.0F));
-    }
-
-    Primitive& currentPrimitive()
-    {
-        if (m_primitive == kNone)
-        {
-            const auto [known, is_new] =
-                m_primitive_of.emplace(m_material, static_cast<std::uint32_t>(m_primitives.size()));
-            if (is_new)
-            {
-                m_primitives.emplace_back().material = m_materials.add(m_material);
-            }
-            m_primitive = known->second;
-        }
-        return m_primitives[m_primitive];
     }
 
     static constexpr const char* kNoTriangles = "points and lines left out, only triangles become voxels";
@@ -289,22 +269,18 @@ private:
     std::array<std::int64_t, ListCount> m_above{}; // the line of a face
     std::vector<glm::vec4> m_colors;               // of the first vertices, up to the last that has one
     std::vector<Corner> m_corners;                 // of the current face
-    std::vector<glm::vec3> m_corner_positions;
     std::vector<std::uint32_t> m_vertices;
     PolygonTriangulator m_triangulator;
-    std::string m_material; // of the next face
-    std::uint32_t m_primitive = kNone;
-    std::map<std::string, std::uint32_t> m_primitive_of; // [material]
-    std::vector<Primitive> m_primitives;
+    std::string m_material;                        // of the next face
+    Primitive* m_primitive = nullptr;              // of m_material, when a face has it
+    std::map<std::string, Primitive> m_primitives; // [material]
 };
 
 } // namespace
 
 Scene readObj(const std::filesystem::path& path, std::span<const std::uint8_t> bytes, ImageDecoding decoding)
 {
-    const std::optional<std::vector<std::uint8_t>> utf8 = asUtf8(bytes);
-    const std::span<const std::uint8_t> content = utf8 ? *utf8 : bytes;
-    return ObjReader(path, {reinterpret_cast<const char*>(content.data()), content.size()}, decoding).read();
+    return ObjReader(path, {reinterpret_cast<const char*>(bytes.data()), bytes.size()}, decoding).read();
 }
 
 } // namespace zvo

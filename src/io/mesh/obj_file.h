@@ -15,8 +15,8 @@ namespace zvo
 /// material. Polygons are cut into triangles (polygon_triangulator.h); points, lines and free-form surfaces are left
 /// out. Vertex colours are sRGB in the file, material colours linear. Vertices without a colour are white. Material
 /// files and textures must lie in the file's folder or below; one that is missing is left out. bytes: the content of
-/// path. Throws Error{Input}, one line with the path, for a file that is broken. After: Wavefront, Advanced Visualizer
-/// Manual, appendix B1, Object Files, 1992.
+/// path, in UTF-8. Throws Error{Input}, one line with the path, for a file that is broken. After: Wavefront, Advanced
+/// Visualizer Manual, appendix B1, Object Files, 1992.
 Scene readObj(const std::filesystem::path& path, std::span<const std::uint8_t> bytes, ImageDecoding decoding);
 
 } // namespace zvo

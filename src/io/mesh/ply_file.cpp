@@ -44,19 +44,19 @@ public:
                 fmt::format("lines of the header without a keyword of PLY left out (\"{}\")", m_header.unknown_line));
         }
         readElements();
-        if (!m_has_faces && !m_vertices.positions.empty())
+        if (m_vertices.triangles.empty() && m_pieces.empty() && !m_vertices.positions.empty())
         {
             m_scene.warn("a cloud of points, without faces; only triangles become voxels");
         }
         if (!m_vertices.triangles.empty() || m_pieces.empty())
         {
-            addPrimitive(0, m_vertices);
+            addPrimitive(0, std::move(m_vertices));
         }
         for (auto& [picture, piece] : m_pieces)
         {
-            addPrimitive(picture, piece);
+            addPrimitive(picture, std::move(piece));
         }
-        return m_scene.finish(std::move(m_primitives));
+        return m_scene.finish();
     }
 
 private:
@@ -120,7 +120,7 @@ private:
     {
         if (property.count_type == nullptr)
         {
-            const bool is_color = property.use >= PlyRed && property.use <= PlyAlpha;
+            const bool is_color = property.use >= PlyColor && property.use <= PlyAlpha;
             m_values[property.use] = number(*property.type) / (is_color ? property.type->channel_max : 1.0);
             return;
         }
@@ -146,40 +146,41 @@ private:
 
     void readVertices(const PlyElement& element)
     {
-        if (!element.hasThree(PlyX))
+        if (!element.has(PlyPosition, 3))
         {
             throw fail("its vertices have no x, y and z");
         }
-        const bool has_normals = element.hasThree(PlyNormalX);
-        const bool has_colors = element.hasThree(PlyRed);
-        const bool has_uvs = element.has(PlyU) && element.has(PlyV);
+        const bool has_normals = element.has(PlyNormal, 3);
+        const bool has_colors = element.has(PlyColor, 3);
+        const bool has_uvs = element.has(PlyUv, 2);
         m_vertex_bytes = sizeof(glm::vec3) + (has_normals ? sizeof(glm::vec3) : 0) +
                          (has_colors ? sizeof(glm::vec4) : 0) + (has_uvs ? sizeof(glm::vec2) : 0);
-        forEachItem(element,
-                    [&]
-                    {
-                        m_bytes_left.take(m_vertex_bytes);
-                        m_vertices.positions.emplace_back(m_values[PlyX], m_values[PlyY], m_values[PlyZ]);
-                        if (has_normals)
-                        {
-                            m_vertices.normals.push_back(unitOrZero(
-                                glm::dvec3(m_values[PlyNormalX], m_values[PlyNormalY], m_values[PlyNormalZ])));
-                        }
-                        if (has_colors)
-                        {
-                            m_vertices.colors.push_back(color());
-                        }
-                        if (has_uvs)
-                        {
-                            m_vertices.uvs.emplace_back(m_values[PlyU], 1.0 - m_values[PlyV]); // v points up
-                        }
-                    });
+        const auto addVertex = [&]
+        {
+            m_bytes_left.take(m_vertex_bytes);
+            m_vertices.positions.emplace_back(values(PlyPosition));
+            if (has_normals)
+            {
+                m_vertices.normals.push_back(unitOrZero(values(PlyNormal)));
+            }
+            if (has_colors)
+            {
+                m_vertices.colors.push_back(color());
+            }
+            if (has_uvs)
+            {
+                m_vertices.uvs.emplace_back(m_values[PlyUv], 1.0 - m_values[PlyUv + 1]); // v points up
+            }
+        };
+        forEachItem(element, addVertex);
     }
 
-    [[nodiscard]] glm::vec4 color() const
+    [[nodiscard]] glm::dvec3 values(std::size_t use) const
     {
-        return srgbToLinear(glm::dvec4(m_values[PlyRed], m_values[PlyGreen], m_values[PlyBlue], m_values[PlyAlpha]));
+        return {m_values[use], m_values[use + 1], m_values[use + 2]};
     }
+
+    [[nodiscard]] glm::vec4 color() const { return srgbToLinear(glm::dvec4(values(PlyColor), m_values[PlyAlpha])); }
 
     void readFaces(const PlyElement& element)
     {
@@ -189,25 +190,25 @@ private:
         {
             m_scene.warn(fmt::format("elements left out that are no vertices, faces or strips ({})", element.name));
         }
-        m_face_colors = is_face && element.hasThree(PlyRed) && m_vertices.colors.empty();
+        m_face_colors = is_face && element.has(PlyColor, 3) && m_vertices.colors.empty();
         m_face_uvs = is_face && element.hasList(kWedges) && !m_header.pictures.empty();
-        const bool is_split = m_face_colors || m_face_uvs || (is_face && element.has(PlyTexture));
-        if (is_face && element.hasThree(PlyRed) && !m_face_colors)
+        const bool is_split = m_face_colors || m_face_uvs || (is_face && element.has(PlyPicture, 1));
+        if (is_face && element.has(PlyColor, 3) && !m_face_colors)
         {
             m_scene.warn("colours of faces left out, as the vertices have colours");
         }
-        forEachItem(element,
-                    [&]
-                    {
-                        if (is_strip)
-                        {
-                            addStrips();
-                        }
-                        else if (is_face)
-                        {
-                            addFace(is_split);
-                        }
-                    });
+        const auto add = [&]
+        {
+            if (is_strip)
+            {
+                addStrips();
+            }
+            else if (is_face)
+            {
+                addFace(is_split);
+            }
+        };
+        forEachItem(element, add);
     }
 
     /// is_split: its vertices become its own, with what only the face has.
@@ -228,12 +229,11 @@ private:
         }
         m_bytes_left.take((count > 3 ? 2 * count : count / 3) * sizeof(glm::uvec3)); // PolygonTriangulator
         m_triangulator.triangulate(m_corner_positions, m_corners, piece.triangles);
-        m_has_faces = m_has_faces || count >= 3;
     }
 
     [[nodiscard]] std::size_t pictureIndex() const
     {
-        const double index = m_values[PlyTexture];
+        const double index = m_values[PlyPicture];
         return index > 0.0 && index < static_cast<double>(m_header.pictures.size()) ? static_cast<std::size_t>(index)
                                                                                     : 0;
     }
@@ -264,36 +264,26 @@ private:
 
     void addStrips()
     {
-        std::array<std::uint32_t, 2> last{}; // the vertex before the previous one, and the previous one
-        std::uint64_t in_strip = 0;
-        for (const double value : m_indices)
+        std::size_t first = 0; // of the strip
+        m_corners.clear();
+        for (std::size_t i = 0; i < m_indices.size(); ++i)
         {
-            if (value == -1.0)
+            const bool is_end = m_indices[i] == -1.0;
+            m_corners.push_back(is_end ? kNone : vertexIndex(m_indices[i]));
+            first = is_end ? i + 1 : first;
+            if (i >= first + 2)
             {
-                in_strip = 0;
-                continue;
-            }
-            const std::uint32_t vertex = vertexIndex(value);
-            if (in_strip >= 2)
-            {
-                const bool odd = in_strip % 2 == 1;
+                const std::size_t odd = (i - first) % 2;
                 m_bytes_left.take(sizeof(glm::uvec3));
-                m_vertices.triangles.emplace_back(last[odd ? 1 : 0], last[odd ? 0 : 1], vertex);
-                m_has_faces = true;
+                m_vertices.triangles.emplace_back(m_corners[i - 2 + odd], m_corners[i - 1 - odd], m_corners[i]);
             }
-            last = {last[1], vertex};
-            ++in_strip;
         }
     }
 
     std::uint32_t vertexIndex(double value) const
     {
-        const std::size_t vertex_count = m_vertices.positions.size();
-        if (!(value >= 0.0) || value >= std::numeric_limits<std::uint32_t>::max() || value != std::floor(value))
-        {
-            throw fail(fmt::format("a face has the vertex {}", value));
-        }
-        if (value >= static_cast<double>(vertex_count))
+        const auto vertex_count = static_cast<double>(std::min<std::size_t>(m_vertices.positions.size(), kNone));
+        if (!(value >= 0.0) || value >= vertex_count || value != std::floor(value))
         {
             throw fail(fmt::format("a face has the vertex {}, but there are {}", value, vertex_count));
         }
@@ -324,10 +314,9 @@ private:
     }
 
     /// Adds a primitive with a material for its picture.
-    void addPrimitive(std::size_t picture, Primitive& piece)
+    void addPrimitive(std::size_t picture, Primitive piece)
     {
         Material material;
-        material.name = "default";
         if (picture < m_header.pictures.size() && piece.uvs.empty())
         {
             m_scene.warn(
@@ -338,8 +327,7 @@ private:
             piece.uvs.resize(piece.positions.size());
             material.base_color_texture = m_scene.addTexture(m_header.pictures[picture], m_path, WrapMode::Repeat);
         }
-        piece.material = m_scene.add(std::move(material));
-        m_primitives.push_back(std::move(piece));
+        m_scene.add(std::move(piece), std::move(material));
     }
 
     static constexpr std::string_view kWedges = "texcoord"; // of the corners of a face
@@ -348,7 +336,7 @@ private:
     TextCursor m_cursor;
     PlyHeader m_header;
     SceneBytesLeft m_bytes_left;
-    std::array<double, PlyUseCount> m_values{}; // of the current vertex or face
+    std::array<double, PlyNothing + 1> m_values{}; // of the current vertex or face
     std::vector<double> m_indices;
     std::vector<double> m_wedges;
     std::vector<std::uint32_t> m_corners;
@@ -357,10 +345,8 @@ private:
     std::size_t m_vertex_bytes = 0;
     bool m_face_colors = false;
     bool m_face_uvs = false;
-    bool m_has_faces = false;                  // of three corners at least
     Primitive m_vertices;                      // and the triangles that share them
     std::map<std::size_t, Primitive> m_pieces; // of faces with vertices of their own, by picture
-    std::vector<Primitive> m_primitives;
     MeshScene m_scene;
 };
 

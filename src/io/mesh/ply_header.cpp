@@ -42,24 +42,32 @@ const PlyType* findType(std::string_view name)
     return found != std::end(kTypes) ? found : nullptr;
 }
 
-PlyUse useOf(std::string_view name)
+std::size_t useOf(std::string_view name)
 {
-    constexpr std::string_view kNames[PlyNothing][3] = {{"x"},
-                                                        {"y"},
-                                                        {"z"},
-                                                        {"nx"},
-                                                        {"ny"},
-                                                        {"nz"},
-                                                        {"red", "r", "diffuse_red"},
-                                                        {"green", "g", "diffuse_green"},
-                                                        {"blue", "b", "diffuse_blue"},
-                                                        {"alpha", "a"},
-                                                        {"s", "u", "texture_u"},
-                                                        {"t", "v", "texture_v"},
-                                                        {"texnumber"}};
-    const auto* const found = std::ranges::find_if(kNames, [&](const auto& names)
-                                                   { return std::ranges::find(names, name) != std::end(names); });
-    return name.empty() ? PlyNothing : static_cast<PlyUse>(found - std::begin(kNames));
+    constexpr std::array<std::string_view, PlyNothing> kNames = {"x",
+                                                                 "y",
+                                                                 "z",
+                                                                 "nx",
+                                                                 "ny",
+                                                                 "nz",
+                                                                 "red r diffuse_red",
+                                                                 "green g diffuse_green",
+                                                                 "blue b diffuse_blue",
+                                                                 "alpha a",
+                                                                 "s u texture_u",
+                                                                 "t v texture_v",
+                                                                 "texnumber"};
+    const auto isOf = [&](std::string_view names)
+    {
+        TextCursor words(names);
+        std::string_view word = words.word();
+        while (!word.empty() && word != name)
+        {
+            word = words.word();
+        }
+        return !word.empty();
+    };
+    return static_cast<std::size_t>(std::ranges::find_if(kNames, isOf) - kNames.begin());
 }
 
 PlyEncoding encodingOf(std::string_view name, const std::filesystem::path& path)
@@ -89,15 +97,16 @@ void addProperty(TextCursor& words, std::string_view line, PlyHeader& header, co
         throw plyError(path, fmt::format("\"{}\" has an unknown type or no element", line));
     }
     property.name = words.word();
-    property.use = is_list ? PlyNothing : useOf(property.name);
+    property.use = is_list ? std::size_t{PlyNothing} : useOf(property.name);
     header.elements.back().properties.push_back(property);
 }
 
 } // namespace
 
-bool PlyElement::has(std::size_t use) const
+bool PlyElement::has(std::size_t use, std::size_t how_many) const
 {
-    return std::ranges::find(properties, use, &PlyProperty::use) != properties.end();
+    const auto is_there = std::ranges::find(properties, use, &PlyProperty::use) != properties.end();
+    return how_many == 0 || (is_there && has(use + 1, how_many - 1));
 }
 
 bool PlyElement::hasList(std::string_view list) const

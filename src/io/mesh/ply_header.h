@@ -30,30 +30,23 @@ struct PlyType
     bool is_single = false;                       // single precision
 };
 
-/// The meaning of a number, as an index into the numbers of a vertex or face.
+/// The meaning of a number, as an index into the numbers of a vertex or face: x, y and z from PlyPosition on, and so
+/// on.
 enum PlyUse : std::size_t
 {
-    PlyX,
-    PlyY,
-    PlyZ,
-    PlyNormalX,
-    PlyNormalY,
-    PlyNormalZ,
-    PlyRed,
-    PlyGreen,
-    PlyBlue,
-    PlyAlpha,
-    PlyU,
-    PlyV,
-    PlyTexture, // index of a picture
-    PlyNothing,
-    PlyUseCount
+    PlyPosition,
+    PlyNormal = 3,
+    PlyColor = 6,
+    PlyAlpha = 9,
+    PlyUv,
+    PlyPicture = 12,
+    PlyNothing
 };
 
 struct PlyProperty
 {
     std::string name;
-    PlyUse use = PlyNothing; // of one number
+    std::size_t use = PlyNothing; // of one number
     const PlyType* type = nullptr;
     const PlyType* count_type = nullptr; // of a list; null: one number
 };
@@ -64,9 +57,8 @@ struct PlyElement
     std::uint64_t count = 0;
     std::vector<PlyProperty> properties;
 
-    /// Whether it has three numbers of these meanings, from first on.
-    [[nodiscard]] bool hasThree(PlyUse first) const { return has(first) && has(first + 1) && has(first + 2); }
-    [[nodiscard]] bool has(std::size_t use) const;
+    /// Whether it has so many numbers of these meanings, from use on.
+    [[nodiscard]] bool has(std::size_t use, std::size_t how_many) const;
     [[nodiscard]] bool hasList(std::string_view list) const;
 };
 

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cstddef>
 #include <cstring>
 #include <fmt/format.h>
 #include <string_view>
@@ -23,13 +24,19 @@ namespace
 
 static_assert(std::endian::native == std::endian::little, "STL is little-endian and is read by copying");
 
-// A binary file has a header without meaning, the number of facets, and the facets.
+// A binary file has a header, the number of facets, and the facets.
 constexpr std::size_t kHeaderBytes = 80;
 constexpr std::size_t kFacetsOffset = kHeaderBytes + sizeof(std::uint32_t);
-constexpr std::size_t kNormalBytes = 3 * sizeof(float);
-constexpr std::size_t kFacetBytes = 50; // normal, three corners, 16 bits
+constexpr std::size_t kFacetBytes = 50; // without the padding of Facet
 
-constexpr std::uint64_t kTriangleBytes = 3 * sizeof(glm::vec3) + sizeof(glm::uvec3);
+struct Facet
+{
+    glm::vec3 normal;
+    std::array<glm::vec3, 3> corners;
+    std::uint16_t bits; // five for each channel of a colour, and one
+};
+
+constexpr std::uint64_t kTriangleBytes = sizeof(Facet::corners) + sizeof(glm::uvec3);
 
 /// Adds a triangle of three new vertices.
 void addVertices(Primitive& primitive, const std::array<glm::vec3, 3>& corners)
@@ -39,61 +46,34 @@ void addVertices(Primitive& primitive, const std::array<glm::vec3, 3>& corners)
     primitive.triangles.emplace_back(first, first + 1, first + 2);
 }
 
-template <typename T> T read(std::span<const std::uint8_t> bytes, std::size_t at)
+std::uint32_t facetCount(std::span<const std::uint8_t> bytes)
 {
-    T value;
-    std::memcpy(&value, bytes.data() + at, sizeof(value));
-    return value;
+    std::uint32_t count = 0;
+    std::memcpy(&count, bytes.data() + kHeaderBytes, sizeof(count));
+    return count;
 }
 
-/// The 16 bits of a facet.
-std::uint32_t facetBits(std::span<const std::uint8_t> bytes, std::size_t facet)
-{
-    return read<std::uint16_t>(bytes, kFacetsOffset + (facet + 1) * kFacetBytes - sizeof(std::uint16_t));
-}
-
-/// A facet's colour: five bits for each channel, red in the highest or the lowest ones.
-glm::vec4 facetColor(std::uint32_t bits, bool is_red_first)
-{
-    constexpr std::uint32_t kChannelMax = 31;
-    const glm::dvec3 channels(bits >> 10U & kChannelMax, bits >> 5U & kChannelMax, bits & kChannelMax);
-    const double max = kChannelMax;
-    return srgbToLinear(
-        glm::dvec4((is_red_first ? channels : glm::dvec3(channels.z, channels.y, channels.x)) / max, 1.0));
-}
-
-/// Reads the colours of facets. Materialise Magics: the head has a colour of all, behind "COLOR=", and facets without
+/// Adds the colours of facets. Materialise Magics: the head has a colour of all, behind "COLOR=", and facets without
 /// the highest bit have their own, red in the lowest bits. VisCAM and SolidView: facets with the highest bit have their
 /// own, red in the highest bits; the others are white.
-void readColors(std::span<const std::uint8_t> bytes, SceneBytesLeft& bytes_left, Primitive& primitive)
+void addColors(std::span<const std::uint8_t> head, const std::vector<std::uint16_t>& facets, Primitive& primitive)
 {
+    constexpr std::string_view kColorMark = "COLOR=";
     constexpr std::uint32_t kHighest = 1U << 15U;
-    constexpr std::string_view kMark = "COLOR=";
-    const std::size_t facet_count = primitive.triangles.size();
-    const std::string_view head(reinterpret_cast<const char*>(bytes.data()), kHeaderBytes);
-    const std::size_t mark = head.find(kMark);
-    const bool is_magics = mark < kHeaderBytes - kMark.size() - 4;
-    glm::vec4 color_of_all(1.0F);
-    std::uint32_t all_bits = 0;
-    for (std::size_t facet = 0; facet < facet_count; ++facet)
+    constexpr std::uint32_t kChannelMax = 31;
+    const std::size_t mark = std::string_view(reinterpret_cast<const char*>(head.data()), head.size()).find(kColorMark);
+    const bool is_magics = mark <= kHeaderBytes - kColorMark.size() - 4;
+    const std::uint8_t* const rgba = head.data() + mark + kColorMark.size();
+    const glm::dvec3 of_all = is_magics ? glm::dvec3(rgba[0], rgba[1], rgba[2]) / 255.0 : glm::dvec3(1.0);
+    const bool are_set =
+        std::ranges::any_of(facets, [&](auto bits) { return is_magics ? bits != 0 : bits >= kHighest; });
+    for (std::size_t i = 0; (are_set || is_magics) && i < facets.size(); ++i)
     {
-        all_bits |= facetBits(bytes, facet);
-    }
-    if (is_magics)
-    {
-        const auto* const color = bytes.data() + mark + kMark.size();
-        color_of_all = srgbToLinear(glm::dvec4(glm::dvec3(color[0], color[1], color[2]) / 255.0, 1.0));
-    }
-    else if ((all_bits & kHighest) == 0)
-    {
-        return;
-    }
-    bytes_left.take(primitive.positions.size() * sizeof(glm::vec4));
-    for (std::size_t facet = 0; facet < facet_count; ++facet)
-    {
-        const std::uint32_t bits = facetBits(bytes, facet);
-        const bool is_own = all_bits != 0 && ((bits & kHighest) != 0) != is_magics; // all 0: nobody has set them
-        primitive.colors.insert(primitive.colors.end(), 3, is_own ? facetColor(bits, !is_magics) : color_of_all);
+        const std::uint32_t bits = facets[i];
+        const bool is_own = are_set && (bits >= kHighest) != is_magics;
+        const glm::dvec3 own(bits & kChannelMax, bits >> 5U & kChannelMax, bits >> 10U & kChannelMax);
+        const glm::dvec3 color = !is_own ? of_all : (is_magics ? own : glm::dvec3(own.z, own.y, own.x)) / 31.0;
+        primitive.colors.insert(primitive.colors.end(), 3, srgbToLinear(glm::dvec4(color, 1.0)));
     }
 }
 
@@ -105,24 +85,26 @@ Primitive readBinary(const std::filesystem::path& path, std::span<const std::uin
                                            "starting with \"solid\"; {}",
                                            bytes.size(), kExportAgain));
     }
-    const auto facet_count = read<std::uint32_t>(bytes, kHeaderBytes);
+    const std::uint32_t facet_count = facetCount(bytes);
     if (facet_count > (bytes.size() - kFacetsOffset) / kFacetBytes)
     {
         throw inputError(path, fmt::format("announces {} facets of {} bytes, the STL file has {} bytes for them; {}",
                                            facet_count, kFacetBytes, bytes.size() - kFacetsOffset, kCutShort));
     }
-    SceneBytesLeft bytes_left(path);
-    bytes_left.take(facet_count * kTriangleBytes);
+    SceneBytesLeft(path).take(facet_count * (kTriangleBytes + 3 * sizeof(glm::vec4)));
     Primitive primitive;
     primitive.positions.reserve(3 * std::size_t{facet_count});
     primitive.triangles.reserve(facet_count);
+    std::vector<std::uint16_t> bits;
     for (std::uint32_t i = 0; i < facet_count; ++i)
     {
-        using Corners = std::array<glm::vec3, 3>;
-        static_assert(sizeof(Corners) == 9 * sizeof(float));
-        addVertices(primitive, read<Corners>(bytes, kFacetsOffset + i * kFacetBytes + kNormalBytes));
+        Facet facet;
+        static_assert(offsetof(Facet, bits) + sizeof(facet.bits) == kFacetBytes);
+        std::memcpy(&facet, bytes.data() + kFacetsOffset + i * kFacetBytes, kFacetBytes);
+        addVertices(primitive, facet.corners);
+        bits.push_back(facet.bits);
     }
-    readColors(bytes, bytes_left, primitive);
+    addColors(bytes.first(kHeaderBytes), bits, primitive);
     return primitive;
 }
 
@@ -215,7 +197,7 @@ private:
 bool isBinaryStl(std::span<const std::uint8_t> content)
 {
     return content.size() >= kFacetsOffset &&
-           content.size() - kFacetsOffset == std::uint64_t{read<std::uint32_t>(content, kHeaderBytes)} * kFacetBytes;
+           content.size() - kFacetsOffset == std::uint64_t{facetCount(content)} * kFacetBytes;
 }
 
 bool isTextStl(std::span<const std::uint8_t> content)
@@ -230,12 +212,8 @@ Scene readStl(const std::filesystem::path& path, std::span<const std::uint8_t> b
 {
     const std::string_view content(reinterpret_cast<const char*>(bytes.data()), bytes.size());
     MeshScene scene(path, ImageDecoding::WhenLoaded);
-    Material material;
-    material.name = "default";
-    scene.add(std::move(material));
-    std::vector<Primitive> primitives;
-    primitives.push_back(isTextStl(bytes) ? TextReader(path, content).read() : readBinary(path, bytes));
-    return scene.finish(std::move(primitives));
+    scene.add(isTextStl(bytes) ? TextReader(path, content).read() : readBinary(path, bytes));
+    return scene.finish();
 }
 
 } // namespace zvo

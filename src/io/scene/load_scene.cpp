@@ -6,6 +6,7 @@
 #include "core/file/zvo_file.h"
 #include "core/scene/animation.h"
 #include "io/file/text_cursor.h"
+#include "io/file/utf16.h"
 #include "io/gltf/gltf_loader.h"
 #include "io/mesh/obj_file.h"
 #include "io/mesh/ply_file.h"
@@ -84,12 +85,12 @@ Scene loadFile(const std::filesystem::path& path, ImageDecoding decoding)
         throw inputError(path, "a .zvo file holds voxels and no triangles; zvo render and zvo convert take it");
     }
     std::vector<std::uint8_t> bytes = readFile(path);
-    constexpr std::array<std::uint8_t, 3> kMark = {0xEF, 0xBB, 0xBF}; // of UTF-8, which editors put before text
-    if (bytes.size() >= kMark.size() && std::equal(kMark.begin(), kMark.end(), bytes.begin()))
-    {
-        bytes.erase(bytes.begin(), bytes.begin() + kMark.size());
-    }
     const std::string extension = lowerExtension(path);
+    // Any text may begin with the mark of UTF-8.
+    if (auto utf8 = asUtf8(bytes); utf8 && (extension == ".obj" || (bytes[0] == 0xEF && bytes[1] != 0)))
+    {
+        bytes = *std::move(utf8);
+    }
     if (extension == ".vox")
     {
         throw inputError(path, "a .vox file holds voxels and no triangles; zvo render shows it, zvo convert a.vox -o "
@@ -162,23 +163,16 @@ bool isSceneFile(const std::filesystem::path& path)
 
 glm::mat3 rotationToY(UpAxis up)
 {
-    const auto columns = [](const glm::vec3& x, const glm::vec3& y, const glm::vec3& z)
-    { return glm::mat3(x, y, z); }; // the axes to which x, y and z of the file are mapped
-    switch (up)
-    {
-    case UpAxis::X:
-        return columns({0, 1, 0}, {-1, 0, 0}, {0, 0, 1});
-    case UpAxis::Z:
-        return columns({1, 0, 0}, {0, 0, -1}, {0, 1, 0});
-    case UpAxis::MinusX:
-        return columns({0, -1, 0}, {1, 0, 0}, {0, 0, 1});
-    case UpAxis::MinusY:
-        return columns({1, 0, 0}, {0, -1, 0}, {0, 0, -1});
-    case UpAxis::MinusZ:
-        return columns({1, 0, 0}, {0, 0, 1}, {0, -1, 0});
-    default:
-        return glm::mat3(1.0F);
-    }
+    static const std::array<glm::mat3, 6> kRotations = {{
+        // the axes to which x, y and z of the file are mapped
+        {0, 1, 0, -1, 0, 0, 0, 0, 1},
+        {1, 0, 0, 0, 1, 0, 0, 0, 1},
+        {1, 0, 0, 0, 0, -1, 0, 1, 0},
+        {0, -1, 0, 1, 0, 0, 0, 0, 1},
+        {1, 0, 0, 0, -1, 0, 0, 0, -1},
+        {1, 0, 0, 0, 0, 1, 0, -1, 0},
+    }};
+    return kRotations.at(static_cast<std::size_t>(up));
 }
 
 Scene loadScene(std::span<const std::filesystem::path> paths, const LoadOptions& options)

@@ -174,7 +174,7 @@ TEST(MeshExporters, FilesAreFoundBesideTheObjBesideTheMtlAndByTheirNameAlone)
     EXPECT_EQ(redOf("alone.png", "D:\\models\\b.mtl"), 50);
     EXPECT_EQ(redOf("alone.png", "b.mtl alone.png"), 50) << "the first of several";
     dir.write("a.obj", std::string_view(std::string("mtllib b.mtl absent.mtl\n") + kSquare + kSquareFace));
-    expectOneLine(loadIn(dir, "a.obj").warnings, {"no material file absent.mtl"});
+    expectOneLine(loadIn(dir, "a.obj").warnings, {"b.mtl absent.mtl: there is no such file"});
 }
 
 TEST(MeshExporters, MtlTexturesAreScaledAndMoved)
