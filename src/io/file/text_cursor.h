@@ -43,10 +43,8 @@ inline std::optional<float> parseSingle(std::string_view word)
 inline std::string lowered(std::string_view text)
 {
     std::string small(text);
-    for (char& letter : small)
-    {
-        letter = letter >= 'A' && letter <= 'Z' ? static_cast<char>(letter - 'A' + 'a') : letter;
-    }
+    std::transform(small.begin(), small.end(), small.begin(),
+                   [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + ('a' - 'A')) : c; });
     return small;
 }
 

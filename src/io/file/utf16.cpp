@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "io/file/utf16.h"
 
-#include <algorithm>
-#include <initializer_list>
+#include <string_view>
 
 namespace zvo
 {
@@ -17,11 +16,6 @@ constexpr std::uint32_t kLowFirst = 0xDC00;
 constexpr std::uint32_t kSurrogates = 0x400;
 constexpr std::uint32_t kSupplementary = 0x10000; // the first character that needs two surrogates
 constexpr std::uint32_t kReplacement = 0xFFFD;
-
-bool beginsWith(Bytes text, std::initializer_list<std::uint8_t> start)
-{
-    return text.size() >= start.size() && std::equal(start.begin(), start.end(), text.begin());
-}
 
 bool isAmong(std::uint32_t unit, std::uint32_t first)
 {
@@ -74,11 +68,12 @@ std::vector<std::uint8_t> decodeUtf16(Bytes text, bool is_big_endian)
 
 std::optional<std::vector<std::uint8_t>> asUtf8(Bytes text)
 {
-    if (beginsWith(text, {0xEF, 0xBB, 0xBF}))
+    const std::string_view characters(reinterpret_cast<const char*>(text.data()), text.size());
+    if (characters.starts_with("\xEF\xBB\xBF"))
     {
         return std::vector<std::uint8_t>(text.begin() + 3, text.end());
     }
-    if (beginsWith(text, {0xFE, 0xFF}) || beginsWith(text, {0xFF, 0xFE}))
+    if (characters.starts_with("\xFE\xFF") || characters.starts_with("\xFF\xFE"))
     {
         return decodeUtf16(text.subspan(2), text[0] == 0xFE);
     }

@@ -34,13 +34,7 @@ namespace zvo
 namespace
 {
 
-constexpr std::array<std::uint8_t, 4> kExrMagic = {0x76, 0x2F, 0x31, 0x01};
 constexpr int kHdrChannels = 3;
-
-bool startsWith(std::span<const std::uint8_t> bytes, std::string_view text)
-{
-    return bytes.size() >= text.size() && std::memcmp(bytes.data(), text.data(), text.size()) == 0;
-}
 
 void checkTexels(std::int64_t width, std::int64_t height, const std::string& where)
 {
@@ -85,9 +79,8 @@ HdrImage decodeRadiance(std::span<const std::uint8_t> encoded, const std::string
     int width = 0;
     int height = 0;
     int channels = 0;
-    constexpr std::size_t kBytesMax = INT_MAX;
-    if (stbi_info_from_memory(encoded.data(), static_cast<int>(std::min(encoded.size(), kBytesMax)), &width, &height,
-                              &channels) == 0)
+    if (stbi_info_from_memory(encoded.data(), static_cast<int>(std::min<std::size_t>(encoded.size(), INT_MAX)), &width,
+                              &height, &channels) == 0)
     {
         throw fault("its head has no format 32-bit_rle_rgbe and no size -Y HEIGHT +X WIDTH");
     }
@@ -136,25 +129,21 @@ HdrImage readExr(Imf::InputFile& file, const std::string& where)
                       static_cast<std::uint32_t>(window.max.y - window.min.y + 1),
                       {}};
     const std::array names = channelsOf(file.header(), where);
-    std::vector<std::array<float, kHdrChannels>> texels(std::size_t{image.width} * image.height);
+    image.texels.resize(std::size_t{image.width} * image.height);
     const bool grey = std::string_view(names[0]) == names[1];
     Imf::FrameBuffer buffer;
     for (std::size_t i = 0; i < (grey ? 1 : names.size()); ++i)
     {
-        const std::ptrdiff_t texel = sizeof(texels.front());
+        const std::ptrdiff_t texel = sizeof(glm::vec3);
         const std::ptrdiff_t row = texel * static_cast<std::ptrdiff_t>(image.width);
-        char* const origin =
-            reinterpret_cast<char*>(texels.data()) + i * sizeof(float) - window.min.x * texel - window.min.y * row;
+        char* const origin = reinterpret_cast<char*>(image.texels.data()) + i * sizeof(float) - window.min.x * texel -
+                             window.min.y * row;
         buffer.insert(names.at(i),
                       Imf::Slice(Imf::FLOAT, origin, static_cast<std::size_t>(texel), static_cast<std::size_t>(row)));
     }
     file.setFrameBuffer(buffer);
     file.readPixels(window.min.y, window.max.y);
-    image.texels.reserve(texels.size());
-    for (const std::array<float, kHdrChannels>& texel : texels)
-    {
-        image.texels.emplace_back(texel[0], texel[grey ? 0 : 1], texel[grey ? 0 : 2]);
-    }
+    std::ranges::for_each(image.texels, [&](glm::vec3& texel) { texel = grey ? glm::vec3(texel.x) : texel; });
     return image;
 }
 
@@ -171,7 +160,7 @@ HdrImage decodeExr(std::span<const std::uint8_t> encoded, const std::string& whe
     {
         throw;
     }
-    catch (const std::exception& error)
+    catch (const std::exception&)
     {
         throw imageError(where, "the OpenEXR picture does not decode; save it again");
     }
@@ -210,9 +199,9 @@ void repair(HdrImage& image, const std::string& where, std::vector<std::string>&
 HdrImage decodeHdrImage(std::span<const std::uint8_t> encoded, const std::string& where,
                         std::vector<std::string>& warnings)
 {
-    const bool is_exr =
-        encoded.size() >= kExrMagic.size() && std::equal(kExrMagic.begin(), kExrMagic.end(), encoded.begin());
-    if (!is_exr && !startsWith(encoded, "#?RADIANCE") && !startsWith(encoded, "#?RGBE"))
+    const std::string_view head(reinterpret_cast<const char*>(encoded.data()), encoded.size());
+    const bool is_exr = head.starts_with("\x76\x2F\x31\x01");
+    if (!is_exr && !head.starts_with("#?RADIANCE") && !head.starts_with("#?RGBE"))
     {
         throw imageError(where, "neither a Radiance (.hdr) nor an OpenEXR (.exr) picture");
     }

@@ -214,18 +214,6 @@ Pixels decodePixels(std::span<const std::uint8_t> encoded, const ImageHeader& he
     return pixels;
 }
 
-std::vector<std::uint8_t> readAgain(const EncodedImage& source, const std::string& where)
-{
-    try
-    {
-        return readFile(source.file, source.first_byte, source.byte_count);
-    }
-    catch (const Error& failure)
-    {
-        throw imageError(where, failure.what());
-    }
-}
-
 } // namespace
 
 Image decodeImage(std::span<const std::uint8_t> encoded, const std::string& name, const std::string& where,
@@ -233,12 +221,7 @@ Image decodeImage(std::span<const std::uint8_t> encoded, const std::string& name
 {
     const ImageHeader header = readHeader(encoded, where, bytes_max);
     const Pixels pixels = decodePixels(encoded, header, where);
-    Image image;
-    image.name = name;
-    image.width = header.width;
-    image.height = header.height;
-    image.rgba.assign(pixels.get(), pixels.get() + header.rgbaBytes());
-    return image;
+    return {name, header.width, header.height, {pixels.get(), pixels.get() + header.rgbaBytes()}};
 }
 
 Image deferImage(std::span<const std::uint8_t> encoded, EncodedImage source, const std::string& name,
@@ -253,8 +236,9 @@ Image deferImage(std::span<const std::uint8_t> encoded, EncodedImage source, con
     {
         try
         {
-            const std::vector<std::uint8_t> read =
-                source.bytes ? std::vector<std::uint8_t>() : readAgain(source, where);
+            const std::vector<std::uint8_t> read = source.bytes
+                                                       ? std::vector<std::uint8_t>()
+                                                       : readFile(source.file, source.first_byte, source.byte_count);
             const std::span<const std::uint8_t> bytes = source.bytes ? *source.bytes : read;
             if (readHeader(bytes, where, bytes_max) != header)
             {

@@ -3,6 +3,7 @@
 
 #include "zvo/error.h"
 
+#include <algorithm>
 #include <cassert>
 #include <fmt/format.h>
 #include <webp/encode.h>
@@ -34,31 +35,24 @@ WebPConfig configOf(std::uint32_t quality)
 }
 
 // A picture in the form that libwebp takes.
-class Source
+struct Source : WebPPicture
 {
-public:
-    Source(std::uint32_t width, std::uint32_t height, std::span<const std::uint8_t> rgba)
+    Source(std::uint32_t picture_width, std::uint32_t picture_height, std::span<const std::uint8_t> rgba)
     {
-        assert(width > 0 && height > 0 && width <= kWebpEdgeMax && height <= kWebpEdgeMax);
-        assert(rgba.size() == std::size_t{width} * height * kWebpChannels);
-        WebPPictureInit(&m_picture);
-        m_picture.use_argb = 1;
-        m_picture.width = static_cast<int>(width);
-        m_picture.height = static_cast<int>(height);
-        if (WebPPictureImportRGBX(&m_picture, rgba.data(), m_picture.width * kWebpChannels) == 0)
+        assert(picture_width > 0 && picture_height > 0 && std::max(picture_width, picture_height) <= kWebpEdgeMax);
+        assert(rgba.size() == std::size_t{picture_width} * picture_height * kWebpChannels);
+        WebPPictureInit(this);
+        use_argb = 1;
+        width = static_cast<int>(picture_width);
+        height = static_cast<int>(picture_height);
+        if (WebPPictureImportRGBX(this, rgba.data(), width * kWebpChannels) == 0)
         {
-            fail(width, height);
+            fail(picture_width, picture_height);
         }
     }
-    ~Source() { WebPPictureFree(&m_picture); }
+    ~Source() { WebPPictureFree(this); }
     Source(const Source&) = delete;
     Source& operator=(const Source&) = delete;
-
-    WebPPicture* operator->() { return &m_picture; }
-    WebPPicture* get() { return &m_picture; }
-
-private:
-    WebPPicture m_picture;
 };
 
 } // namespace
@@ -70,10 +64,10 @@ std::vector<std::uint8_t> encodeWebp(std::uint32_t width, std::uint32_t height, 
     WebPMemoryWriterInit(&writer);
     const std::unique_ptr<WebPMemoryWriter, decltype(&WebPMemoryWriterClear)> owner(&writer, WebPMemoryWriterClear);
     Source source(width, height, rgba);
-    source->writer = WebPMemoryWrite;
-    source->custom_ptr = &writer;
+    source.writer = WebPMemoryWrite;
+    source.custom_ptr = &writer;
     const WebPConfig config = configOf(quality);
-    if (WebPEncode(&config, source.get()) == 0)
+    if (WebPEncode(&config, &source) == 0)
     {
         fail(width, height);
     }
@@ -107,7 +101,7 @@ WebpAnimation& WebpAnimation::operator=(WebpAnimation&&) noexcept = default;
 void WebpAnimation::add(std::span<const std::uint8_t> rgba, std::uint32_t begin_ms)
 {
     Source source(m_encoder->width, m_encoder->height, rgba);
-    if (WebPAnimEncoderAdd(m_encoder->made.get(), source.get(), static_cast<int>(begin_ms), &m_encoder->config) == 0)
+    if (WebPAnimEncoderAdd(m_encoder->made.get(), &source, static_cast<int>(begin_ms), &m_encoder->config) == 0)
     {
         fail(m_encoder->width, m_encoder->height);
     }

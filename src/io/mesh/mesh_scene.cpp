@@ -43,12 +43,11 @@ std::optional<std::filesystem::path> findBeside(const std::filesystem::path& mes
     return std::nullopt;
 }
 
-void MeshScene::warn(const std::string& what)
+void MeshScene::warn(const std::string& kind, std::string_view first)
 {
-    const std::string line = inputError(m_path, what).what();
-    if (std::find(m_scene.warnings.begin(), m_scene.warnings.end(), line) == m_scene.warnings.end())
+    if (m_warned.insert(kind).second)
     {
-        m_scene.warnings.push_back(line);
+        m_scene.warnings.emplace_back(inputError(m_path, fmt::format("{}{}", kind, first)).what());
     }
 }
 
@@ -65,6 +64,10 @@ void MeshScene::add(Primitive primitive, Material material, const std::string& n
 std::optional<std::uint32_t> MeshScene::addTexture(const std::string& name, const std::filesystem::path& named_in,
                                                    WrapMode wrap)
 {
+    if (name.empty())
+    {
+        return std::nullopt;
+    }
     const std::optional<std::filesystem::path> file = findBeside(m_path, named_in, name);
     const auto [image, is_new] = m_images.try_emplace(file.value_or(""));
     try

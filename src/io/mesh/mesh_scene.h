@@ -9,7 +9,9 @@
 #include <filesystem>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
+#include <string_view>
 
 namespace zvo
 {
@@ -29,14 +31,14 @@ class MeshScene
 public:
     MeshScene(const std::filesystem::path& path, ImageDecoding decoding) : m_path(path), m_decoding(decoding) {}
 
-    /// Adds a warning about what is left out of the file, once for each text.
-    void warn(const std::string& what);
+    /// Adds a warning about a kind of what is left out of the file, once, with the first of it.
+    void warn(const std::string& kind, std::string_view first = "");
 
     /// Adds a primitive with an instance and a material of its own.
     void add(Primitive primitive, Material material = {}, const std::string& name = "default");
 
-    /// Adds a texture of the picture that is named in the file named_in; returns its index. Nothing, with a warning, if
-    /// there is none that can be used.
+    /// Adds a texture of the picture that is named in the file named_in; returns its index. Nothing for no
+    /// name, and, with a warning, for a picture that cannot be used.
     std::optional<std::uint32_t> addTexture(const std::string& name, const std::filesystem::path& named_in,
                                             WrapMode wrap);
 
@@ -48,6 +50,7 @@ private:
     ImageDecoding m_decoding;
     std::uint64_t m_image_bytes_left = sceneBytesMax();
     std::map<std::filesystem::path, std::optional<std::uint32_t>> m_images;
+    std::set<std::string> m_warned; // kinds
     Scene m_scene;
 };
 

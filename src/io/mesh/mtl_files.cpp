@@ -32,7 +32,7 @@ std::vector<glm::vec2> placed(const std::vector<glm::vec2>& uvs, const MtlTextur
 
 void MtlFiles::read(std::string_view names)
 {
-    if (readFileNamed(std::string(names)))
+    if (!m_names.emplace(names).second || readFileNamed(std::string(names)))
     {
         return;
     }
@@ -118,7 +118,7 @@ std::optional<glm::vec3> MtlFiles::readColor(std::string_view line, TextCursor w
     }
     if (count != 1 && count != 3)
     {
-        m_scene.warn(fmt::format("colour left out: \"{}\" has not three numbers of at least 0", line));
+        m_scene.warn("colours left out that are not three numbers of at least 0: ", line);
         return std::nullopt;
     }
     return count == 1 ? glm::vec3(color.x) : color;
@@ -131,7 +131,7 @@ std::optional<float> MtlFiles::readFraction(std::string_view line, TextCursor wo
     const std::optional<float> number = parseSingle(first == "-halo" ? words.word() : first);
     if (!number || std::isnan(*number))
     {
-        m_scene.warn(fmt::format("transparency left out: \"{}\" has no number", line));
+        m_scene.warn("transparency left out that is no number: ", line);
         return std::nullopt;
     }
     return std::clamp(*number, 0.0F, 1.0F);
@@ -172,35 +172,31 @@ MtlTexture MtlFiles::readTexture(TextCursor words, const std::filesystem::path& 
     return texture;
 }
 
-std::optional<std::uint32_t> MtlFiles::addTexture(const MtlTexture& texture)
-{
-    return texture.name.empty() ? std::nullopt : m_scene.addTexture(texture.name, texture.named_in, texture.wrap);
-}
-
 void MtlFiles::add(Primitive primitive, const std::string& name)
 {
     const auto found = m_materials.find(name);
     if (found == m_materials.end() && !name.empty() && m_all_found)
     {
-        m_scene.warn(fmt::format("colours left out, as no material file has the material {}", name));
+        m_scene.warn("colours left out, as no material file has the material ", name);
     }
-    static const MtlMaterial kWhite;
-    const MtlMaterial& source = found == m_materials.end() ? kWhite : found->second;
+    const MtlMaterial source = found == m_materials.end() ? MtlMaterial() : found->second;
+    const MtlTexture& color = source.color_texture;
+    const MtlTexture& emission = source.emission_texture;
     Material material;
     // MeshLab and 3ds Max write "Tr 1" where they mean opaque; nobody exports what cannot be seen.
     const float transparency = source.transparency.value_or(0.0F);
     const float opacity = source.opacity.value_or(transparency < 1.0F ? 1.0F - transparency : 1.0F);
     // Black would hide the texture, even one that cannot be used, which exporters do not mean.
-    const bool is_hidden = !source.color_texture.name.empty() && source.color == glm::vec3(0.0F);
+    const bool is_hidden = !color.name.empty() && source.color == glm::vec3(0.0F);
     material.base_color = glm::vec4(is_hidden ? glm::vec3(1.0F) : source.color, opacity);
     material.alpha_mode = opacity < 1.0F ? AlphaMode::Blend : AlphaMode::Opaque;
-    material.base_color_texture = addTexture(source.color_texture);
-    material.emission = source.emission.value_or(glm::vec3(source.emission_texture.name.empty() ? 0.0F : 1.0F));
+    material.base_color_texture = m_scene.addTexture(color.name, color.named_in, color.wrap);
+    material.emission = source.emission.value_or(glm::vec3(emission.name.empty() ? 0.0F : 1.0F));
     if (material.emission != glm::vec3(0.0F))
     {
-        material.emission_texture = addTexture(source.emission_texture);
+        material.emission_texture = m_scene.addTexture(emission.name, emission.named_in, emission.wrap);
     }
-    if (!source.cut_out.name.empty() && source.cut_out.name == source.color_texture.name)
+    if (!source.cut_out.name.empty() && source.cut_out.name == color.name)
     {
         material.alpha_mode = AlphaMode::Mask; // taken from the colour texture's own alpha
     }
@@ -208,8 +204,6 @@ void MtlFiles::add(Primitive primitive, const std::string& name)
     {
         m_scene.warn("textures of transparency (map_d) left out; put them into the alpha of the colour textures");
     }
-    const MtlTexture& color = source.color_texture;
-    const MtlTexture& emission = source.emission_texture;
     const bool has_both = !color.name.empty() && !emission.name.empty();
     if (has_both && (color.scale != emission.scale || color.offset != emission.offset))
     {

@@ -58,11 +58,11 @@ private:
     std::optional<glm::vec3> readColor(std::string_view line, TextCursor words);
     std::optional<float> readFraction(std::string_view line, TextCursor words);
     MtlTexture readTexture(TextCursor words, const std::filesystem::path& file);
-    std::optional<std::uint32_t> addTexture(const MtlTexture& texture);
 
     const std::filesystem::path& m_path;
     MeshScene& m_scene;
     bool m_all_found = true;
+    std::set<std::string> m_names; // that were looked for
     std::set<std::filesystem::path> m_files;
     std::map<std::string, MtlMaterial> m_materials;
 };

@@ -55,7 +55,6 @@ public:
         forEachStatement([this](std::string_view keyword) { readFaces(keyword); });
         for (auto& [material, primitive] : m_primitives)
         {
-            fillUp(primitive, primitive.positions.size());
             m_materials.add(std::move(primitive), material);
         }
         return m_scene.finish();
@@ -108,8 +107,7 @@ private:
 
     void readLists(std::string_view keyword)
     {
-        const auto list = static_cast<std::size_t>(std::find(kListKeywords.begin(), kListKeywords.end(), keyword) -
-                                                   kListKeywords.begin());
+        const auto list = static_cast<std::size_t>(std::ranges::find(kListKeywords, keyword) - kListKeywords.begin());
         if (keyword == "mtllib")
         {
             m_materials.read(m_words.rest());
@@ -223,36 +221,27 @@ private:
         return corner;
     }
 
+    /// Adds what the lists of the file have; where the corner names nothing of it, no normal, 0 and white.
     void addVertex(const Corner& corner, Primitive& primitive)
     {
-        const std::size_t before = primitive.positions.size();
-        m_bytes_left.take(sizeof(glm::vec3) + (corner[Normals] != kNone ? sizeof(glm::vec3) : 0) +
-                          (corner[Uvs] != kNone ? sizeof(glm::vec2) : 0) + (m_colors.empty() ? 0 : sizeof(glm::vec4)));
+        m_bytes_left.take(2 * sizeof(glm::vec3) + sizeof(glm::vec2) + sizeof(glm::vec4));
+        m_vertices.push_back(static_cast<std::uint32_t>(primitive.positions.size()));
         primitive.positions.push_back(m_lists[Positions][corner[Positions]]);
-        if (corner[Normals] != kNone)
+        const auto listed = [&](List list)
+        { return corner[list] != kNone ? m_lists[list][corner[list]] : glm::vec3(0.0F); };
+        if (!m_lists[Normals].empty())
         {
-            primitive.normals.resize(before);
-            primitive.normals.push_back(unitOrZero(m_lists[Normals][corner[Normals]]));
+            primitive.normals.push_back(unitOrZero(listed(Normals)));
         }
-        if (corner[Uvs] != kNone)
+        if (!m_lists[Uvs].empty())
         {
-            primitive.uvs.resize(before);
-            primitive.uvs.emplace_back(m_lists[Uvs][corner[Uvs]]);
+            primitive.uvs.emplace_back(listed(Uvs));
         }
-        if (corner[Positions] < m_colors.size())
+        if (!m_colors.empty())
         {
-            primitive.colors.resize(before, glm::vec4(1.0F));
-            primitive.colors.push_back(m_colors[corner[Positions]]);
+            primitive.colors.push_back(corner[Positions] < m_colors.size() ? m_colors[corner[Positions]]
+                                                                           : glm::vec4(1.0F));
         }
-        m_vertices.push_back(static_cast<std::uint32_t>(before));
-    }
-
-    /// Gives vertices without them no normals, coordinates of 0 and a white colour, where others have them.
-    static void fillUp(Primitive& primitive, std::size_t vertex_count)
-    {
-        primitive.normals.resize(primitive.normals.empty() ? 0 : vertex_count);
-        primitive.uvs.resize(primitive.uvs.empty() ? 0 : vertex_count);
-        primitive.colors.resize(primitive.colors.empty() ? 0 : vertex_count, glm::vec4(1.0F));
     }
 
     static constexpr const char* kNoTriangles = "points and lines left out, only triangles become voxels";

@@ -62,11 +62,6 @@ public:
 private:
     [[nodiscard]] Error fail(const std::string& what) const { return plyError(m_path, what); }
 
-    [[nodiscard]] Error cutShort() const
-    {
-        return inputError(m_path, fmt::format("the PLY file ends before its last element; {}", kCutShort));
-    }
-
     /// Reads the vertices first, as faces may stand before those that they name.
     void readElements()
     {
@@ -129,17 +124,15 @@ private:
         {
             throw fail(fmt::format("a list {} has {} entries", property.name, count));
         }
-        const bool has_corners = property.name == "vertex_indices" || property.name == "vertex_index";
+        std::vector<double>* const list = property.use == PlyCorners     ? &m_indices
+                                          : property.use == PlyCornerUvs ? &m_wedges
+                                                                         : nullptr;
         for (std::uint64_t i = 0; i < static_cast<std::uint64_t>(count); ++i)
         {
             const double value = number(*property.type);
-            if (has_corners)
+            if (list != nullptr)
             {
-                m_indices.push_back(value);
-            }
-            else if (property.name == kWedges)
-            {
-                m_wedges.push_back(value);
+                list->push_back(value);
             }
         }
     }
@@ -191,24 +184,13 @@ private:
             m_scene.warn(fmt::format("elements left out that are no vertices, faces or strips ({})", element.name));
         }
         m_face_colors = is_face && element.has(PlyColor, 3) && m_vertices.colors.empty();
-        m_face_uvs = is_face && element.hasList(kWedges) && !m_header.pictures.empty();
+        m_face_uvs = is_face && element.has(PlyCornerUvs, 1) && !m_header.pictures.empty();
         const bool is_split = m_face_colors || m_face_uvs || (is_face && element.has(PlyPicture, 1));
         if (is_face && element.has(PlyColor, 3) && !m_face_colors)
         {
             m_scene.warn("colours of faces left out, as the vertices have colours");
         }
-        const auto add = [&]
-        {
-            if (is_strip)
-            {
-                addStrips();
-            }
-            else if (is_face)
-            {
-                addFace(is_split);
-            }
-        };
-        forEachItem(element, add);
+        forEachItem(element, [&] { is_strip ? addStrips() : is_face ? addFace(is_split) : void(); });
     }
 
     /// is_split: its vertices become its own, with what only the face has.
@@ -297,7 +279,7 @@ private:
         const std::string_view data = is_text ? m_cursor.word() : m_cursor.take(type.bytes);
         if (data.size() < (is_text ? 1 : type.bytes))
         {
-            throw cutShort();
+            throw inputError(m_path, fmt::format("the PLY file ends before its last element; {}", kCutShort));
         }
         if (is_text)
         {
@@ -329,8 +311,6 @@ private:
         }
         m_scene.add(std::move(piece), std::move(material));
     }
-
-    static constexpr std::string_view kWedges = "texcoord"; // of the corners of a face
 
     const std::filesystem::path& m_path;
     TextCursor m_cursor;

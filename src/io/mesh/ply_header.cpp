@@ -44,30 +44,22 @@ const PlyType* findType(std::string_view name)
 
 std::size_t useOf(std::string_view name)
 {
-    constexpr std::array<std::string_view, PlyNothing> kNames = {"x",
-                                                                 "y",
-                                                                 "z",
-                                                                 "nx",
-                                                                 "ny",
-                                                                 "nz",
-                                                                 "red r diffuse_red",
-                                                                 "green g diffuse_green",
-                                                                 "blue b diffuse_blue",
-                                                                 "alpha a",
-                                                                 "s u texture_u",
-                                                                 "t v texture_v",
-                                                                 "texnumber"};
-    const auto isOf = [&](std::string_view names)
+    constexpr std::string_view kNames[] = {
+        // in the order of PlyUse; - is no name
+        "x y z nx ny nz red green blue alpha s t texnumber vertex_indices texcoord",
+        "- - - -  -  -  r   g     b    a     u v -         vertex_index   -",
+        "- - - -  -  -  diffuse_red diffuse_green diffuse_blue - texture_u texture_v - - -"};
+    for (TextCursor names : {TextCursor(kNames[0]), TextCursor(kNames[1]), TextCursor(kNames[2])})
     {
-        TextCursor words(names);
-        std::string_view word = words.word();
-        while (!word.empty() && word != name)
+        for (std::size_t use = 0; use < PlyNothing; ++use)
         {
-            word = words.word();
+            if (names.word() == name && name != "-")
+            {
+                return use;
+            }
         }
-        return !word.empty();
-    };
-    return static_cast<std::size_t>(std::ranges::find_if(kNames, isOf) - kNames.begin());
+    }
+    return PlyNothing;
 }
 
 PlyEncoding encodingOf(std::string_view name, const std::filesystem::path& path)
@@ -97,7 +89,8 @@ void addProperty(TextCursor& words, std::string_view line, PlyHeader& header, co
         throw plyError(path, fmt::format("\"{}\" has an unknown type or no element", line));
     }
     property.name = words.word();
-    property.use = is_list ? std::size_t{PlyNothing} : useOf(property.name);
+    const std::size_t use = useOf(property.name);
+    property.use = is_list == (use == PlyCorners || use == PlyCornerUvs) ? use : std::size_t{PlyNothing};
     header.elements.back().properties.push_back(property);
 }
 
@@ -107,12 +100,6 @@ bool PlyElement::has(std::size_t use, std::size_t how_many) const
 {
     const auto is_there = std::ranges::find(properties, use, &PlyProperty::use) != properties.end();
     return how_many == 0 || (is_there && has(use + 1, how_many - 1));
-}
-
-bool PlyElement::hasList(std::string_view list) const
-{
-    return std::ranges::any_of(properties, [&](const PlyProperty& property)
-                               { return property.count_type != nullptr && property.name == list; });
 }
 
 PlyHeader readPlyHeader(TextCursor& cursor, const std::filesystem::path& path)

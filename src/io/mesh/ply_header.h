@@ -30,8 +30,8 @@ struct PlyType
     bool is_single = false;                       // single precision
 };
 
-/// The meaning of a number, as an index into the numbers of a vertex or face: x, y and z from PlyPosition on, and so
-/// on.
+/// The meaning of a number, as an index into the numbers of a vertex or face, or of a list: x, y and z from PlyPosition
+/// on, and so on.
 enum PlyUse : std::size_t
 {
     PlyPosition,
@@ -40,13 +40,15 @@ enum PlyUse : std::size_t
     PlyAlpha = 9,
     PlyUv,
     PlyPicture = 12,
+    PlyCorners,   // a list
+    PlyCornerUvs, // a list
     PlyNothing
 };
 
 struct PlyProperty
 {
     std::string name;
-    std::size_t use = PlyNothing; // of one number
+    std::size_t use = PlyNothing;
     const PlyType* type = nullptr;
     const PlyType* count_type = nullptr; // of a list; null: one number
 };
@@ -59,7 +61,6 @@ struct PlyElement
 
     /// Whether it has so many numbers of these meanings, from use on.
     [[nodiscard]] bool has(std::size_t use, std::size_t how_many) const;
-    [[nodiscard]] bool hasList(std::string_view list) const;
 };
 
 /// How the data is written, and what it holds, in order.

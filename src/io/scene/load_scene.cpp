@@ -42,11 +42,6 @@ std::string lowerExtension(const std::filesystem::path& path)
     return lowered(path.extension().string());
 }
 
-bool hasObjVertices(std::string_view content)
-{
-    return content.starts_with("v ") || content.find("\nv ") != std::string_view::npos;
-}
-
 std::optional<FileFormat> formatOf(std::span<const std::uint8_t> bytes, const std::string& extension)
 {
     const std::string_view content(reinterpret_cast<const char*>(bytes.data()), bytes.size());
@@ -71,7 +66,8 @@ std::optional<FileFormat> formatOf(std::span<const std::uint8_t> bytes, const st
     {
         return FileFormat::Gltf;
     }
-    return hasObjVertices(content) ? std::optional(FileFormat::Obj) : std::nullopt;
+    const bool has_vertices = content.starts_with("v ") || content.find("\nv ") != std::string_view::npos;
+    return has_vertices ? std::optional(FileFormat::Obj) : std::nullopt;
 }
 
 Scene loadFile(const std::filesystem::path& path, ImageDecoding decoding)
