@@ -108,6 +108,10 @@ Scene MeshScene::finish()
         size.vertex_count = std::max(size.vertex_count, static_cast<double>(primitive.positions.size()));
     }
     checkSceneSize(m_path, size);
+    if (size.triangle_count == 0)
+    {
+        warn("without faces, such as a cloud of points; only triangles become voxels");
+    }
     return std::move(m_scene);
 }
 

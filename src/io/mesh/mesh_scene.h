@@ -37,12 +37,13 @@ public:
     /// Adds a primitive with an instance and a material of its own.
     void add(Primitive primitive, Material material = {}, const std::string& name = "default");
 
-    /// Adds a texture of the picture that is named in the file named_in; returns its index. Nothing for no
-    /// name, and, with a warning, for a picture that cannot be used.
+    /// Adds a texture of the picture that is named in the file named_in; returns its index. Nothing for no name, and,
+    /// with a warning, for a picture that cannot be used.
     std::optional<std::uint32_t> addTexture(const std::string& name, const std::filesystem::path& named_in,
                                             WrapMode wrap);
 
-    /// The scene. Throws Error{Input} where primitives are too many or too long.
+    /// The scene, with a warning where it has no triangles. Throws Error{Input} where primitives are too many or too
+    /// long.
     Scene finish();
 
 private:

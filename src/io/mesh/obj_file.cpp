@@ -190,8 +190,7 @@ private:
         m_vertices.clear();
         std::ranges::for_each(m_corners, [this](const Corner& corner) { addVertex(corner, *m_primitive); });
         m_bytes_left.take((count > 4 ? 2 * count : count - 2) * sizeof(glm::uvec3)); // PolygonTriangulator
-        const std::span<const glm::vec3> positions(m_primitive->positions);
-        m_triangulator.triangulate(positions.last(count), m_vertices, m_primitive->triangles);
+        m_triangulator.triangulate(std::span(m_primitive->positions).last(count), m_vertices, m_primitive->triangles);
     }
 
     /// A corner of a face, such as "3/1/2" or "-1//-1". Negative numbers count back from the line.
@@ -255,7 +254,7 @@ private:
     MeshScene m_scene;
     MtlFiles m_materials;
     std::array<std::vector<glm::vec3>, ListCount> m_lists;
-    std::array<std::int64_t, ListCount> m_above{}; // the line of a face
+    std::array<std::int64_t, ListCount> m_above{}; // the current line
     std::vector<glm::vec4> m_colors;               // of the first vertices, up to the last that has one
     std::vector<Corner> m_corners;                 // of the current face
     std::vector<std::uint32_t> m_vertices;

@@ -44,10 +44,6 @@ public:
                 fmt::format("lines of the header without a keyword of PLY left out (\"{}\")", m_header.unknown_line));
         }
         readElements();
-        if (m_vertices.triangles.empty() && m_pieces.empty() && !m_vertices.positions.empty())
-        {
-            m_scene.warn("a cloud of points, without faces; only triangles become voxels");
-        }
         if (!m_vertices.triangles.empty() || m_pieces.empty())
         {
             addPrimitive(0, std::move(m_vertices));

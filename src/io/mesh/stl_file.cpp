@@ -63,7 +63,7 @@ void addColors(std::span<const std::uint8_t> head, const std::vector<std::uint16
     constexpr std::uint32_t kChannelMax = 31;
     const std::size_t mark = std::string_view(reinterpret_cast<const char*>(head.data()), head.size()).find(kColorMark);
     const bool is_magics = mark <= kHeaderBytes - kColorMark.size() - 4;
-    const std::uint8_t* const rgba = head.data() + mark + kColorMark.size();
+    const auto rgba = head.subspan(is_magics ? mark + kColorMark.size() : 0, 4);
     const glm::dvec3 of_all = is_magics ? glm::dvec3(rgba[0], rgba[1], rgba[2]) / 255.0 : glm::dvec3(1.0);
     const bool are_set =
         std::ranges::any_of(facets, [&](auto bits) { return is_magics ? bits != 0 : bits >= kHighest; });
