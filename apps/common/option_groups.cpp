@@ -110,6 +110,8 @@ void addLoadOptions(CLI::App& app, LoadOptions& options)
         ->type_name("AXIS");
     addValue(app, "--scale", options.scale, parsePositive, "FACTOR",
              "multiplies the files' coordinates, after --up (default 1)");
+    app.add_flag("--bind-pose", options.bind_pose,
+                 "meshes stand as they were modelled, without their skins, morph weights and animations");
     addMaterialOptions(app, options);
 }
 

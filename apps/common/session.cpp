@@ -8,6 +8,7 @@
 #include "common/words.h"
 #include "core/base/kernels.h"
 #include "io/scene/load_scene.h"
+#include "io/scene/scene_part.h"
 #include "vk/log_file.h"
 #include "zvo/error.h"
 
@@ -64,10 +65,11 @@ void checkSceneFileOptions(const VoxelOptions& options)
     {
         throw Error(ErrorCode::Usage, "a scene file (.scene.json) stands alone; name further files in it");
     }
-    if (options.load.up != UpAxis::Y || options.load.scale != 1.0F)
+    if (options.load.up != UpAxis::Y || options.load.scale != 1.0F || options.load.bind_pose)
     {
-        throw Error(ErrorCode::Usage, fmt::format("--up and --scale do not go with {}; write up and place into it",
-                                                  options.scenes.front().string()));
+        throw Error(ErrorCode::Usage,
+                    fmt::format("--up, --scale and --bind-pose do not go with {}; write up and place into it",
+                                options.scenes.front().string()));
     }
     std::error_code missing;
     if (options.scenes_folder && !std::filesystem::is_directory(*options.scenes_folder, missing))
@@ -136,9 +138,8 @@ KeptDevices::~KeptDevices()
 
 Scene loadWithWarnings(std::span<const std::filesystem::path> paths, const LoadOptions& options)
 {
-    Scene scene = loadScene(paths, options);
+    Scene scene = atRest(loadScene(paths, options));
     tellWarnings(scene.warnings);
-    tellWarnings(scene.rest_warnings);
     warnOfNothing(scene.triangleCount() != 0);
     return scene;
 }
@@ -165,10 +166,9 @@ AnimatedScene loadAnimatedSceneWithWarnings(const VoxelOptions& options, bool in
     }
     else
     {
-        animated.fixed = loadScene(options.scenes, load);
+        animated.fixed = atRest(loadScene(options.scenes, load));
         animated.files = options.scenes;
         tellWarnings(animated.fixed.warnings);
-        tellWarnings(animated.fixed.rest_warnings);
     }
     tellWarnings(animated.warnings);
     const bool has_triangles =

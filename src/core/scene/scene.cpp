@@ -119,7 +119,6 @@ void Scene::append(Scene&& other)
     moveBehind(skins, other.skins);
     moveBehind(animations, other.animations);
     moveBehind(warnings, other.warnings);
-    moveBehind(rest_warnings, other.rest_warnings);
 }
 
 // Compiled without contraction (zvo_options), so that no product and sum are fused.

@@ -104,8 +104,7 @@ struct Scene
     std::vector<Node> nodes;
     std::vector<Skin> skins;
     std::vector<Animation> animations;
-    std::vector<std::string> warnings;      // what was left out while loading, one line each
-    std::vector<std::string> rest_warnings; // what else is missing if the scene is used at rest, without a pose
+    std::vector<std::string> warnings; // what was left out while loading, one line each
 
     /// Number of triangles; those of a primitive count once for each instance.
     [[nodiscard]] std::uint64_t triangleCount() const;

@@ -62,7 +62,6 @@ public:
         rig.addAnimations();
         m_document.warnOfUnusedFaults();
         m_scene.warnings = m_warnings.lines(m_document.path);
-        m_scene.rest_warnings = m_rest_warnings.lines(m_document.path);
         return std::move(m_scene);
     }
 
@@ -75,27 +74,12 @@ private:
         {
             known = m_mesh_primitives.emplace(mesh, addPrimitives(mesh)).first;
         }
-        const std::vector<float>& weights = m_scene.nodes[common.node].morph_weights;
-        const bool has_weights =
-            std::any_of(weights.begin(), weights.end(), [](float weight) { return weight != 0.0F; });
-        bool is_skinned = false;
-        bool is_morphed = false;
         for (const std::uint32_t index : known->second)
         {
             Instance instance = common;
             instance.primitive = index;
             instance.skin = fits(common.skin, index, where) ? common.skin : kNone;
-            is_skinned = is_skinned || instance.skin != kNone;
-            is_morphed = is_morphed || (has_weights && !m_scene.primitives[index].morph_targets.empty());
             m_scene.instances.push_back(instance);
-        }
-        if (is_skinned)
-        {
-            m_rest_warnings.add("skins are not applied, the mesh stands as it was modelled", where);
-        }
-        if (is_morphed)
-        {
-            m_rest_warnings.add("morph targets are not applied, the mesh stands as it was modelled", where);
         }
     }
 
@@ -183,7 +167,6 @@ private:
     const GltfDocument& m_document;
     Scene m_scene;
     GltfWarnings& m_warnings = m_document.warnings;
-    GltfWarnings m_rest_warnings;
     GltfMaterials m_materials;
     std::map<int, std::vector<std::uint32_t>> m_mesh_primitives;
     std::vector<std::size_t> m_joint_counts; // [primitives of the scene]

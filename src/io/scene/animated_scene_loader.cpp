@@ -5,7 +5,6 @@
 #include "core/base/input_error.h"
 #include "core/base/read_file.h"
 #include "core/scene/animation.h"
-#include "core/scene/deform.h"
 #include "core/scene/scene_size.h"
 #include "io/file/folder_bounds.h"
 #include "io/scene/animated_scene.h"
@@ -152,7 +151,6 @@ public:
         }
         Scene copy = file.scene;
         file.scene.warnings.clear(); // warnings are printed once
-        file.scene.rest_warnings.clear();
         return copy;
     }
 
@@ -230,13 +228,6 @@ void chooseAnimation(const fs::path& scene_file_path, const SceneFileObject& obj
                                   listAnimations(scene.animations)));
 }
 
-bool isDeformedAtAll(const Scene& scene)
-{
-    return std::any_of(scene.instances.begin(), scene.instances.end(),
-                       [&](const Instance& instance)
-                       { return isDeformed(scene.primitives[instance.primitive], instance); });
-}
-
 /// The parts of a file, in its own space.
 struct FileParts
 {
@@ -251,12 +242,7 @@ struct FileParts
 
 void moveFixed(FileParts& parts, Scene&& scene)
 {
-    if (isDeformedAtAll(scene))
-    {
-        moveBehind(parts.warnings, scene.rest_warnings);
-    }
     scene.warnings.clear();
-    scene.rest_warnings.clear();
     parts.fixed = atRest(std::move(scene));
     moveBehind(parts.fixed_instances, parts.fixed.instances);
 }
@@ -276,7 +262,6 @@ FileParts divide(Scene&& scene, const std::vector<bool>& moves)
     stays.flip();
     const bool all_move = std::find(stays.begin(), stays.end(), true) == stays.end();
     Scene moving = all_move ? std::move(scene) : partOf(scene, moves);
-    moving.rest_warnings.clear();
     if (!all_move)
     {
         moveFixed(parts, partOf(std::move(scene), stays));

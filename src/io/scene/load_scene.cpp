@@ -201,7 +201,7 @@ Scene loadScene(std::span<const std::filesystem::path> paths, const LoadOptions&
         {
             keepAnimation(loaded);
         }
-        scene.append(std::move(loaded));
+        scene.append(options.bind_pose ? asModelled(std::move(loaded)) : std::move(loaded));
     }
     applyLoadOptions(scene, options);
     return scene;

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "io/scene/scene_part.h"
 
+#include "core/scene/animation.h"
+
+#include <algorithm>
 #include <cassert>
 #include <cstddef>
 #include <fmt/format.h>
@@ -90,7 +93,6 @@ template <typename AnyScene> Scene takePart(AnyScene& scene, const std::vector<b
     part.skins = scene.skins;
     part.animations = scene.animations;
     part.warnings = scene.warnings;
-    part.rest_warnings = scene.rest_warnings;
     return part;
 }
 
@@ -106,7 +108,7 @@ Scene partOf(Scene&& scene, const std::vector<bool>& keep)
     return takePart(scene, keep);
 }
 
-Scene atRest(Scene scene)
+Scene asModelled(Scene scene)
 {
     scene.nodes.clear();
     scene.skins.clear();
@@ -123,6 +125,37 @@ Scene atRest(Scene scene)
         instance.skin = kNone;
     }
     return scene;
+}
+
+Scene atRest(Scene scene)
+{
+    scene.animations.clear();
+    const Pose pose = poseAt(scene, 0.0);
+    std::vector<bool> deforms(scene.primitives.size());
+    for (std::size_t i = 0; i < scene.instances.size(); ++i)
+    {
+        const std::vector<float>& weights = pose.morph_weights[i];
+        if (scene.instances[i].skin != kNone ||
+            std::any_of(weights.begin(), weights.end(), [](float weight) { return weight != 0.0F; }))
+        {
+            deforms[scene.instances[i].primitive] = true;
+        }
+    }
+    if (std::find(deforms.begin(), deforms.end(), true) == deforms.end())
+    {
+        return asModelled(std::move(scene));
+    }
+    for (std::size_t i = 0; i < deforms.size(); ++i)
+    {
+        if (!deforms[i])
+        {
+            scene.primitives[i].morph_targets.clear(); // so that its instances go on sharing it
+        }
+    }
+    std::vector<Image> images = std::exchange(scene.images, {}); // are not copied
+    Scene posed = posedScene(scene, pose);
+    posed.images = std::move(images);
+    return posed;
 }
 
 SkippedMaterials::SkippedMaterials(std::vector<std::string> patterns)

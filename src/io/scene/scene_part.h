@@ -14,7 +14,12 @@ namespace zvo
 Scene partOf(const Scene& scene, const std::vector<bool>& keep);
 Scene partOf(Scene&& scene, const std::vector<bool>& keep);
 
-/// The scene at rest, without anything that could move it: no nodes, skins, animations and morph targets.
+/// The meshes as they were modelled, without anything that could move them: no nodes, skins, animations and morph
+/// targets.
+Scene asModelled(Scene scene);
+
+/// The scene at rest, without what could move it: skins and the weights of morph targets are applied, animations are
+/// not. Throws as posedScene().
 Scene atRest(Scene scene);
 
 /// Leaves out what has materials with certain names.

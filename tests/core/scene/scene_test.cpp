@@ -31,7 +31,6 @@ Scene smallScene()
     scene.instances = {{0, glm::mat4(1.0F)}, {0, moved}};
     scene.cameras.emplace_back();
     scene.warnings.emplace_back("warning");
-    scene.rest_warnings.emplace_back("rest");
     scene.nodes.resize(3);
     scene.nodes[2].parent = 1;
     scene.skins.push_back({{2, 0}, {glm::mat4(1.0F), glm::mat4(1.0F)}});
@@ -80,7 +79,6 @@ TEST(Scene, AppendShiftsEveryIndex)
     EXPECT_EQ(scene.instances[3].primitive, 1U);
     EXPECT_EQ(scene.cameras.size(), 2U);
     EXPECT_EQ(scene.warnings.size(), 2U);
-    EXPECT_EQ(scene.rest_warnings.size(), 2U);
     EXPECT_EQ(scene.triangleCount(), 4U);
     ASSERT_EQ(scene.nodes.size(), 6U);
     EXPECT_EQ(scene.nodes[2].parent, 1U);

@@ -2,7 +2,9 @@
 #include "io/scene/load_scene.h"
 
 #include "io/gltf/gltf_builder.h"
+#include "io/gltf/rig_documents.h"
 #include "io/scene/animated_scene.h"
+#include "io/scene/scene_part.h"
 #include "support/mesh_files.h"
 #include "support/toon_scene.h"
 
@@ -193,6 +195,70 @@ TEST(LoadScene, HullsAreLeftOutWithAWarning)
     EXPECT_TRUE(kept.warnings.empty());
     const std::filesystem::path double_sided = dir.write("both.glb", toonGlb(true));
     EXPECT_EQ(loadScene(std::span(&double_sided, 1)).instances.size(), 3U);
+}
+
+/// The corners of a file's triangles in the world, with its scene at rest or as modelled.
+std::vector<glm::vec3> restingCorners(const GltfBuilder& builder, const LoadOptions& options = {})
+{
+    const TempDir dir;
+    const std::filesystem::path path = dir.write("a.glb", builder.glb());
+    const Scene scene = atRest(loadScene(std::span(&path, 1), options));
+    EXPECT_TRUE(scene.warnings.empty());
+    std::vector<glm::vec3> corners;
+    for (const Instance& instance : scene.instances)
+    {
+        const Primitive& primitive = scene.primitives.at(instance.primitive);
+        for (const glm::vec3& position : primitive.positions)
+        {
+            corners.push_back(transformPoint(instance.transform, position));
+        }
+    }
+    return corners;
+}
+
+using Corners = std::vector<glm::vec3>;
+
+TEST(LoadScene, SkinsAreAppliedAtRest)
+{
+    GltfBuilder arm = armDocument(); // with an animation, which does not count
+    const Corners modelled = {{100, 0, 0}, {100, 1, 0}, {100, 2, 0}, {101, 1, 0}};
+    EXPECT_EQ(restingCorners(arm), (Corners{{0, 0, 0}, {0, 1, 0}, {0, 2, 0}, {1, 1, 0}}));
+    EXPECT_EQ(restingCorners(arm, {.bind_pose = true}), modelled);
+    arm.document.erase("animations");
+    arm.document["nodes"][1]["scale"] = {2, 2, 2};
+    arm.document["nodes"][2]["translation"] = {0, 3, 0};
+    const Corners joints = {{0, 0, -5}, {0, 4, -5}, {0, 8, -5}, {2, 3, -5}};
+    EXPECT_EQ(restingCorners(arm), joints);
+    EXPECT_EQ(restingCorners(arm, {.scale = 2}).at(3), glm::vec3(4, 6, -10));
+    EXPECT_EQ(restingCorners(arm, {.up = UpAxis::Z}).at(3), glm::vec3(2, -5, -3));
+    EXPECT_EQ(restingCorners(arm, {.bind_pose = true}), modelled);
+    // A second mesh on the same joints, and one that has no skin, which stands at its node.
+    arm.add("nodes", {{"mesh", 0}, {"skin", 0}});
+    arm.add("nodes", {{"mesh", 0}});
+    const Corners all = restingCorners(arm);
+    ASSERT_EQ(all.size(), 12U);
+    EXPECT_EQ(Corners(all.begin() + 4, all.begin() + 8), joints);
+    EXPECT_EQ(all[11], glm::vec3(1, 1, 0));
+}
+
+TEST(LoadScene, MorphWeightsAreAppliedAtRest)
+{
+    GltfBuilder morphed = morphDocument({0.5F, 2});
+    morphed.document["nodes"][0]["translation"] = {7, 0, 0};
+    EXPECT_EQ(restingCorners(morphed), (Corners{{7, 0, 0.5F}, {12, 0, 0.5F}, {7, 1, 0.5F}}));
+    EXPECT_EQ(restingCorners(morphed, {.bind_pose = true}).at(1), glm::vec3(8, 0, 0));
+    addAnimation<float>(morphed, 0, "weights", "STEP", {0}, "SCALAR", kF32, 2, {1, 1});
+    morphed.add("nodes", {{"mesh", 0}, {"weights", {0, -1}}});
+    const Corners both = restingCorners(morphed);
+    ASSERT_EQ(both.size(), 6U);
+    EXPECT_EQ(both[1], glm::vec3(12, 0, 0.5F)) << "the weights of the mesh, not those of the animation";
+    EXPECT_EQ(both[4], glm::vec3(-1, 0, 0)) << "the node's own";
+    // Meshes that nothing deforms are shared.
+    GltfBuilder still = morphDocument({0, 0});
+    still.add("nodes", {{"mesh", 0}});
+    const Scene scene = atRest(still.load());
+    EXPECT_EQ(scene.primitives.size(), 1U);
+    EXPECT_EQ(scene.instances.size(), 2U);
 }
 
 TEST(LoadScene, MaterialsAreSkippedByTheirNames)
