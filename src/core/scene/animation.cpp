@@ -312,7 +312,7 @@ Pose poseAt(const Scene& scene, double seconds, const glm::dmat4& to_world)
         }
         else if (instance.node != kNone && animated.moved[instance.node])
         {
-            transform = glm::mat4(withAffineRow(nodes.toWorld(instance.node)));
+            transform = glm::mat4(withAffineRow(nodes.toWorld(instance.node) * glm::dmat4(instance.in_node)));
         }
         else
         {

@@ -81,6 +81,7 @@ struct Instance
     glm::mat4 transform{1.0F};   // object to world at rest, affine: the last row is (0, 0, 0, 1)
     std::uint32_t node = kNone;  // index into Scene::nodes: the instance moves with it and takes its morph weights
     std::uint32_t skin = kNone;  // index into Scene::skins; only where the primitive has joints
+    glm::mat4 in_node{1.0F};     // object to the node's space, affine
 };
 
 struct Camera

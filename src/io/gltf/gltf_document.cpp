@@ -37,27 +37,29 @@ constexpr std::array kModelParts = {"asset",       "extensionsUsed", "extensions
                                     "nodes",       "meshes",         "accessors",          "materials", "textures",
                                     "bufferViews", "samplers"};
 
-/// Extensions whose effect is loaded.
-constexpr std::array<std::string_view, 7> kSupportedExtensions = {"EXT_meshopt_compression",
+/// How the names of extensions begin whose effect is loaded, or that do not change surfaces, base colour or emission
+/// (scattering of light, lights, alternatives that are not chosen, what answers to users, data about the file), or that
+/// name formats of images, which cost the textures that have no other image.
+constexpr std::array<std::string_view, 20> kAcceptedExtensions = {"EXT_instance_features",
+                                                                  "EXT_lights_",
+                                                                  "EXT_mesh_features",
+                                                                  "EXT_mesh_gpu_instancing",
+                                                                  "EXT_meshopt_compression",
+                                                                  "EXT_structural_metadata",
+                                                                  "EXT_texture_avif",
                                                                   "EXT_texture_webp",
+                                                                  "KHR_animation_pointer",
                                                                   "KHR_draco_mesh_compression",
-                                                                  "KHR_materials_emissive_strength",
-                                                                  "KHR_materials_pbrSpecularGlossiness",
+                                                                  "KHR_interactivity",
+                                                                  "KHR_lights_",
+                                                                  "KHR_materials_",
                                                                   "KHR_mesh_quantization",
-                                                                  "KHR_texture_transform"};
-
-/// Extensions that do not change surfaces, base colour or emission: scattering of light, lights, alternatives that are
-/// not chosen, data about the file.
-constexpr std::array<std::string_view, 14> kHarmlessExtensions = {
-    "KHR_animation_pointer",      "KHR_lights_punctual",      "KHR_materials_anisotropy",
-    "KHR_materials_clearcoat",    "KHR_materials_dispersion", "KHR_materials_ior",
-    "KHR_materials_iridescence",  "KHR_materials_sheen",      "KHR_materials_specular",
-    "KHR_materials_transmission", "KHR_materials_unlit",      "KHR_materials_variants",
-    "KHR_materials_volume",       "KHR_xmp_json_ld"};
-
-/// Formats of images that are not read: they cost the textures that have no other image.
-constexpr std::array<std::string_view, 3> kImageExtensions = {"EXT_texture_avif", "KHR_texture_basisu",
-                                                              "MSFT_texture_dds"};
+                                                                  "KHR_meshopt_compression",
+                                                                  "KHR_node_",
+                                                                  "KHR_texture_basisu",
+                                                                  "KHR_texture_transform",
+                                                                  "KHR_xmp",
+                                                                  "MSFT_texture_dds"};
 
 template <typename List, typename Item> bool contains(const List& list, const Item& item)
 {
@@ -85,8 +87,8 @@ void checkExtensions(const json& document, const std::filesystem::path& path)
     for (const json& item : gltfItems(document, "extensionsRequired"))
     {
         const auto name = item.get<std::string>();
-        if (!contains(kSupportedExtensions, name) && !contains(kHarmlessExtensions, name) &&
-            !contains(kImageExtensions, name))
+        const auto is_accepted = [&](std::string_view accepted) { return name.starts_with(accepted); };
+        if (std::ranges::none_of(kAcceptedExtensions, is_accepted))
         {
             throw gltfError(path,
                             fmt::format("requires the extension {}, which is not supported; export it without", name));

@@ -37,27 +37,39 @@ public:
         const std::vector<GltfPlacedNode> nodes = placeGltfNodes(m_document);
         checkGltfSize(m_document, nodes);
         GltfRig rig(m_document, nodes, m_scene, m_warnings);
+        std::size_t hidden_count = 0; // nodes
         for (std::uint32_t i = 0; i < nodes.size(); ++i)
         {
             const GltfPlacedNode& placed = nodes[i];
             const tinygltf::Node& node = m_document.model.nodes[placed.node];
             const std::string where = fmt::format("nodes[{}]", placed.node);
-            if (node.mesh >= 0)
+            if (node.mesh >= 0 && !placed.is_hidden)
             {
                 Instance instance;
-                instance.transform = toSinglePrecision(m_document, placed);
                 instance.node = i;
                 instance.skin = node.skin >= 0 ? rig.skin(node.skin) : kNone;
-                addInstances(node.mesh, instance, where);
+                for (const glm::mat4& in_node : readGltfInstances(m_document, placed.node))
+                {
+                    instance.in_node = in_node;
+                    instance.transform =
+                        toSinglePrecision(m_document, placed.node, placed.to_world * glm::dmat4(in_node));
+                    addInstances(node.mesh, instance, where);
+                }
             }
             if (node.camera >= 0)
             {
-                addCamera(node, toSinglePrecision(m_document, placed));
+                addCamera(node, toSinglePrecision(m_document, placed.node, placed.to_world));
             }
-            if (node.extensions.contains("EXT_mesh_gpu_instancing"))
+            if (node.skin >= 0 && node.extensions.contains("EXT_mesh_gpu_instancing"))
             {
-                m_warnings.add("instances of EXT_mesh_gpu_instancing left out, the mesh is there once", where);
+                m_warnings.add("instances of a mesh with a skin left out, the mesh is there once", where);
             }
+            hidden_count += node.mesh >= 0 && placed.is_hidden ? 1 : 0;
+        }
+        if (m_scene.instances.empty() && hidden_count != 0)
+        {
+            m_warnings.add("nothing is shown, as KHR_node_visibility hides all meshes",
+                           fmt::format("{} nodes", hidden_count));
         }
         rig.addAnimations();
         m_document.warnOfUnusedFaults();

@@ -246,7 +246,10 @@ std::optional<std::uint32_t> GltfMaterials::texture(int index, const std::string
     const int source_image = imageOf(source);
     if (source_image < 0)
     {
-        m_warnings.add("texture left out: it has no PNG, JPEG or WebP image; export it with one", where);
+        const std::string other =
+            source.extensions.empty() ? "" : fmt::format(", but one of {}", source.extensions.begin()->first);
+        m_warnings.add(fmt::format("texture left out: it has no PNG, JPEG or WebP image{}; export it with one", other),
+                       where);
         return std::nullopt;
     }
     const std::optional<std::uint32_t> usable = usableImage(source_image, where);

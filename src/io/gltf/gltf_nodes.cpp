@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "io/gltf/gltf_nodes.h"
 
+#include "io/gltf/gltf_accessor.h"
+
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <optional>
 #include <utility>
 
 namespace zvo
@@ -74,6 +77,13 @@ std::vector<int> findRoots(const GltfDocument& document)
     return roots;
 }
 
+bool isHidden(const tinygltf::Node& node)
+{
+    const auto visibility = node.extensions.find("KHR_node_visibility");
+    return visibility != node.extensions.end() && visibility->second.Has("visible") &&
+           !visibility->second.Get("visible").Get<bool>();
+}
+
 /// Places nodes depth first, each once.
 class NodePlacer
 {
@@ -106,9 +116,10 @@ public:
                 continue;
             }
             m_is_placed[visit.node] = true;
-            const glm::dmat4 above = visit.parent == kNone ? glm::dmat4(1.0) : m_placed[visit.parent].to_world;
+            const GltfPlacedNode above = visit.parent == kNone ? GltfPlacedNode{} : m_placed[visit.parent];
             const auto index = static_cast<std::uint32_t>(m_placed.size());
-            m_placed.push_back({visit.node, visit.parent, above * localMatrix(m_document, visit.node)});
+            m_placed.push_back({visit.node, visit.parent, above.to_world * localMatrix(m_document, visit.node),
+                                above.is_hidden || isHidden(m_document.model.nodes[visit.node])});
             const std::vector<int>& children = m_document.model.nodes[visit.node].children;
             for (auto child = children.rbegin(); child != children.rend(); ++child)
             {
@@ -141,15 +152,69 @@ std::vector<GltfPlacedNode> placeGltfNodes(const GltfDocument& document)
     return placer.take();
 }
 
-glm::mat4 toSinglePrecision(const GltfDocument& document, const GltfPlacedNode& node)
+std::map<std::string, int> gltfInstancing(const GltfDocument& document, int node)
 {
-    const glm::mat4 matrix(node.to_world);
+    constexpr const char* kName = "EXT_mesh_gpu_instancing";
+    document.use(fmt::format("nodes[{}].extensions.{}", node, kName));
+    const tinygltf::Node& source = document.model.nodes[node];
+    std::map<std::string, int> accessors;
+    if (const auto extension = source.extensions.find(kName); source.skin < 0 && extension != source.extensions.end())
+    {
+        const tinygltf::Value& attributes = extension->second.Get("attributes");
+        for (const char* attribute : {"TRANSLATION", "ROTATION", "SCALE"})
+        {
+            if (attributes.Has(attribute))
+            {
+                accessors[attribute] = attributes.Get(attribute).GetNumberAsInt();
+            }
+        }
+    }
+    return accessors;
+}
+
+std::vector<glm::mat4> readGltfInstances(const GltfDocument& document, int node)
+{
+    std::map<std::string, std::vector<float>> numbers;
+    std::optional<std::size_t> count;
+    for (const auto& [attribute, index] : gltfInstancing(document, node))
+    {
+        GltfAccessor accessor = openAccessor(document, index, fmt::format("instances of nodes[{}]", node));
+        const bool turns = attribute == "ROTATION";
+        if (accessor.component_count != (turns ? 4 : 3) || count.value_or(accessor.count) != accessor.count ||
+            (!turns && accessor.component_type != TINYGLTF_COMPONENT_TYPE_FLOAT))
+        {
+            throw document.error(fmt::format("{} has a type or count that EXT_mesh_gpu_instancing does not allow; {}",
+                                             accessor.where, kExportAgain));
+        }
+        accessor.normalized = true; // integers are normalized even if the file does not say so
+        count = accessor.count;
+        numbers[attribute] = readNumbers(accessor);
+    }
+    const auto read = [&numbers](const char* attribute, std::size_t instance, std::size_t size)
+    {
+        const std::vector<float>& all = numbers[attribute];
+        return all.empty() ? std::vector<double>()
+                           : std::vector<double>(all.data() + instance * size, all.data() + (instance + 1) * size);
+    };
+    std::vector<glm::mat4> transforms;
+    for (std::size_t i = 0; i < count.value_or(1); ++i)
+    {
+        transforms.emplace_back(composeTransform(toVec3(read("TRANSLATION", i, 3), 0.0),
+                                                 toQuaternion(read("ROTATION", i, 4)),
+                                                 toVec3(read("SCALE", i, 3), 1.0)));
+    }
+    return transforms;
+}
+
+glm::mat4 toSinglePrecision(const GltfDocument& document, int node, const glm::dmat4& to_world)
+{
+    const glm::mat4 matrix(to_world);
     for (int i = 0; i < 16; ++i)
     {
         if (!std::isfinite(matrix[i / 4][i % 4]))
         {
             throw document.error(
-                fmt::format("the transform of nodes[{}] overflows single precision; make it smaller", node.node));
+                fmt::format("the transform of nodes[{}] overflows single precision; make it smaller", node));
         }
     }
     return matrix;

@@ -6,6 +6,8 @@
 
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <map>
+#include <string>
 #include <vector>
 
 namespace zvo
@@ -18,6 +20,7 @@ struct GltfPlacedNode
     int node = 0;
     std::uint32_t parent = kNone; // index among the placed nodes, below its own; kNone: a root of the scene
     glm::dmat4 to_world{1.0};
+    bool is_hidden = false; // by KHR_node_visibility, as are all nodes below it
 };
 
 /// The nodes of the default scene (the first one, or all nodes, where the file names none), parents before children,
@@ -25,7 +28,14 @@ struct GltfPlacedNode
 /// it was met first, with a warning. Throws Error{Input} for a matrix that is not affine.
 std::vector<GltfPlacedNode> placeGltfNodes(const GltfDocument& document);
 
-/// matrix in single precision, with the exact last row (0, 0, 0, 1). Throws Error{Input} where it overflows.
-glm::mat4 toSinglePrecision(const GltfDocument& document, const GltfPlacedNode& node);
+/// The accessors of EXT_mesh_gpu_instancing that place a node's mesh, by the names TRANSLATION, ROTATION and SCALE;
+/// empty where the mesh is there once, as one with a skin is. Throws Error{Input} for a fault.
+std::map<std::string, int> gltfInstancing(const GltfDocument& document, int node);
+
+/// The transforms of a node's mesh to the node. Throws Error{Input}.
+std::vector<glm::mat4> readGltfInstances(const GltfDocument& document, int node);
+
+/// to_world, of a node, in single precision. Throws Error{Input} where it overflows.
+glm::mat4 toSinglePrecision(const GltfDocument& document, int node, const glm::dmat4& to_world);
 
 } // namespace zvo

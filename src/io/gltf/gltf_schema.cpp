@@ -91,7 +91,10 @@ constexpr Rule optionalObject(std::string_view name, std::span<const Rule> membe
 constexpr bool kRequired = true;
 
 constexpr Rule kScene[] = {{"nodes", Kind::Indices, false, "nodes"}};
-constexpr Rule kNodeExtensions[] = {optionalObject("EXT_mesh_gpu_instancing", {})};
+constexpr Rule kInstancing[] = {{"attributes", Kind::IndexMap, kRequired, "accessors"}};
+constexpr Rule kVisibility[] = {{"visible", Kind::Flag}};
+constexpr Rule kNodeExtensions[] = {optionalObject("EXT_mesh_gpu_instancing", kInstancing),
+                                    optionalObject("KHR_node_visibility", kVisibility)};
 constexpr Rule kNode[] = {index("mesh", "meshes"),
                           index("camera", "cameras"),
                           {"children", Kind::Indices, false, "nodes"},
@@ -130,20 +133,23 @@ constexpr Rule kMeshoptView[] = {index("buffer", "buffers", kRequired),
                                  {"count", Kind::Whole, kRequired},
                                  {"mode", Kind::Text, kRequired},
                                  {"filter", Kind::Text}};
-constexpr Rule kViewExtensions[] = {object("EXT_meshopt_compression", kMeshoptView)};
+constexpr Rule kViewExtensions[] = {object("EXT_meshopt_compression", kMeshoptView),
+                                    object("KHR_meshopt_compression", kMeshoptView)};
 constexpr Rule kBufferView[] = {index("buffer", "buffers", kRequired),
                                 {"byteOffset", Kind::Whole},
                                 {"byteLength", Kind::Whole, kRequired},
                                 {"byteStride", Kind::Stride},
                                 object("extensions", kViewExtensions)};
 constexpr Rule kMeshoptBuffer[] = {{"fallback", Kind::Flag}};
-constexpr Rule kBufferExtensions[] = {object("EXT_meshopt_compression", kMeshoptBuffer)};
+constexpr Rule kBufferExtensions[] = {object("EXT_meshopt_compression", kMeshoptBuffer),
+                                      object("KHR_meshopt_compression", kMeshoptBuffer)};
 constexpr Rule kBuffer[] = {
     {"byteLength", Kind::Whole, kRequired}, {"uri", Kind::Text}, object("extensions", kBufferExtensions)};
 constexpr Rule kImage[] = {{"uri", Kind::Text}, index("bufferView", "bufferViews"), {"name", Kind::Text}};
 constexpr Rule kSampler[] = {{"wrapS", Kind::Enumerator}, {"wrapT", Kind::Enumerator}};
 constexpr Rule kTextureSource[] = {index("source", "images")};
-constexpr Rule kImageExtensions[] = {object("EXT_texture_webp", kTextureSource)};
+constexpr Rule kImageExtensions[] = {object("EXT_texture_webp", kTextureSource), optionalObject("EXT_texture_avif", {}),
+                                     optionalObject("KHR_texture_basisu", {}), optionalObject("MSFT_texture_dds", {})};
 constexpr Rule kTexture[] = {index("source", "images"), index("sampler", "samplers"),
                              object("extensions", kImageExtensions)};
 constexpr Rule kTextureTransform[] = {

@@ -64,14 +64,25 @@ SceneSize measureMesh(const tinygltf::Model& model, const tinygltf::Mesh& mesh)
     return size;
 }
 
+/// How often a node shows its mesh.
+double meshCount(const GltfDocument& document, const GltfPlacedNode& placed)
+{
+    if (document.model.nodes[placed.node].mesh < 0 || placed.is_hidden)
+    {
+        return 0;
+    }
+    const std::map<std::string, int> accessors = gltfInstancing(document, placed.node);
+    return accessors.empty() ? 1 : elementCount(document.model, accessors.begin()->second);
+}
+
 /// Bytes of a node, and of the pose (core/scene/animation.h) of its instances.
-double nodeBytes(const GltfDocument& document, const tinygltf::Node& node)
+double nodeBytes(const GltfDocument& document, const tinygltf::Node& node, double mesh_count)
 {
     double bytes = sizeof(Node);
     if (node.mesh >= 0)
     {
         const tinygltf::Mesh& mesh = document.model.meshes[node.mesh];
-        const double instance_count = static_cast<double>(mesh.primitives.size());
+        const double instance_count = mesh_count * static_cast<double>(mesh.primitives.size());
         const double target_count = static_cast<double>(gltfTargetCount(mesh));
         const double joint_count = node.skin < 0 ? 0 : static_cast<double>(document.skins[node.skin].joints.size());
         bytes += (instance_count + 1) * target_count * sizeof(float) + instance_count * joint_count * sizeof(glm::mat4);
@@ -115,9 +126,10 @@ void checkGltfSize(const GltfDocument& document, std::span<const GltfPlacedNode>
     total.bytes = skinBytes(document) + animationBytes(document);
     for (const GltfPlacedNode& placed : nodes)
     {
-        total.bytes += nodeBytes(document, model.nodes[placed.node]);
+        const double mesh_count = meshCount(document, placed);
+        total.bytes += nodeBytes(document, model.nodes[placed.node], mesh_count);
         const int mesh = model.nodes[placed.node].mesh;
-        if (mesh < 0)
+        if (mesh_count == 0)
         {
             continue;
         }
@@ -128,8 +140,8 @@ void checkGltfSize(const GltfDocument& document, std::span<const GltfPlacedNode>
             total.vertex_count = std::max(total.vertex_count, known->second.vertex_count);
             total.bytes += known->second.bytes;
         }
-        total.instance_count += known->second.instance_count;
-        total.triangle_count += known->second.triangle_count;
+        total.instance_count += mesh_count * known->second.instance_count;
+        total.triangle_count += mesh_count * known->second.triangle_count;
     }
     checkSceneSize(document.path, total);
 }

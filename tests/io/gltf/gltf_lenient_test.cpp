@@ -94,7 +94,7 @@ TEST(GltfLenient, FaultsInWhatNothingNeedsCostNothing)
                 {{"buffer", 0}, {"byteLength", 36}, {"extensions", {{"EXT_meshopt_compression", meshopt}}}});
     EXPECT_TRUE(builder.load().warnings.empty());
     builder.document["accessors"][0]["bufferView"] = 2;
-    expectInputError(builder, {"bufferViews[2].extensions", "does not decode"});
+    expectInputError(builder, {"meshopt_compression of bufferViews[2]", "does not decode"});
 }
 
 TEST(GltfLenient, FaultsInOtherPartsCostNothingEither)

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "io/gltf/gltf_loader.h"
 
+#include "core/scene/animation.h"
 #include "gltf_builder.h"
+#include "rig_documents.h"
 
 #include <cmath>
 #include <gtest/gtest.h>
@@ -262,6 +264,99 @@ TEST(GltfLoader, SharedMeshIsLoadedOnceAndInstancedTwice)
     EXPECT_EQ(scene.instances[1].primitive, 0U);
     EXPECT_EQ(scene.instances[1].transform[3].x, 5.0F);
     EXPECT_EQ(scene.triangleCount(), 2U);
+}
+
+constexpr const char* kInstancing = "EXT_mesh_gpu_instancing";
+
+TEST(GltfLoader, InstancesOfANodeArePlacedInIt)
+{
+    GltfBuilder builder = triangleDocument();
+    json& node = builder.document["nodes"][0];
+    node["translation"] = {10, 0, 0};
+    node["scale"] = {2, 2, 2};
+    json& attributes = node["extensions"][kInstancing]["attributes"];
+    attributes = {{"TRANSLATION", builder.addPositions({0, 0, 0, 1, 0, 0, 0, 3, 0})}, {"_ID", 0}};
+    builder.document["extensionsRequired"] = {kInstancing};
+    const Scene moved = builder.load();
+    EXPECT_EQ(sceneFault(moved), "");
+    EXPECT_TRUE(moved.warnings.empty());
+    EXPECT_EQ(moved.primitives.size(), 1U);
+    ASSERT_EQ(moved.instances.size(), 3U);
+    EXPECT_EQ(moved.instances[1].transform * glm::vec4(0, 0, 0, 1), glm::vec4(12, 0, 0, 1));
+    EXPECT_EQ(moved.instances[2].transform * glm::vec4(1, 0, 0, 1), glm::vec4(12, 6, 0, 1));
+    // Half a turn about z as normalized bytes, and scales below 0, without translations.
+    attributes = {{"ROTATION", builder.addAccessor<std::int8_t>("VEC4", kI8, 2, {0, 0, 127, 0, 0, 0, 0, 127})},
+                  {"SCALE", builder.addPositions({1, 2, 3, -1, 1, 1})}};
+    const Scene turned = builder.load();
+    ASSERT_EQ(turned.instances.size(), 2U);
+    EXPECT_EQ(turned.instances[0].transform * glm::vec4(1, 1, 1, 1), glm::vec4(8, -4, 6, 1));
+    EXPECT_EQ(turned.instances[1].transform * glm::vec4(1, 1, 1, 1), glm::vec4(8, 2, 2, 1));
+    attributes = {{"SCALE", builder.addPositions({})}};
+    EXPECT_TRUE(builder.load().instances.empty());
+}
+
+TEST(GltfLoader, InstancesFollowTheAnimationOfTheirNode)
+{
+    GltfBuilder builder = triangleDocument();
+    json& extension = builder.document["nodes"][0]["extensions"][kInstancing];
+    extension["attributes"]["TRANSLATION"] = builder.addPositions({0, 0, 0, 1, 0, 0});
+    addAnimation<float>(builder, 0, "scale", "STEP", {0}, "VEC3", kF32, 1, {3, 3, 3});
+    const Scene scene = builder.load();
+    EXPECT_EQ(scene.instances.at(1).transform[3], glm::vec4(1, 0, 0, 1));
+    EXPECT_EQ(poseAt(scene, 0).transforms.at(1) * glm::vec4(1, 0, 0, 1), glm::vec4(6, 0, 0, 1));
+}
+
+TEST(GltfLoader, InstancesThatMakeNoSenseAreRefused)
+{
+    GltfBuilder builder = triangleDocument();
+    json& extension = builder.document["nodes"][0]["extensions"][kInstancing];
+    const std::size_t two = builder.addPositions({0, 0, 0, 1, 0, 0});
+    const std::size_t three = builder.addPositions({0, 0, 0, 1, 0, 0, 2, 0, 0});
+    const std::size_t bytes = builder.addAccessor<std::int8_t>("VEC3", kI8, 2, {1, 1, 1, 1, 1, 1});
+    const json very_many = {{"componentType", kF32}, {"type", "VEC3"}, {"count", std::uint64_t{1} << 40}};
+    for (const auto& [attributes, why] :
+         {std::pair<json, std::string>({{"SCALE", two}, {"TRANSLATION", three}}, "count"),
+          {{{"ROTATION", two}}, "does not allow"},
+          {{{"SCALE", bytes}}, "does not allow"},
+          {{{"SCALE", 99}}, "SCALE is 99"},
+          {{{"SCALE", builder.add("accessors", very_many)}}, "shows 1099511627776 primitives"}})
+    {
+        extension["attributes"] = attributes;
+        expectInputError(builder, {why});
+    }
+    GltfBuilder skinned = armDocument();
+    skinned.document["nodes"][0]["extensions"][kInstancing]["attributes"]["SCALE"] = skinned.addPositions({1, 1, 1});
+    expectOneLine(skinned.load().warnings, {"instances of a mesh with a skin left out"});
+}
+
+TEST(GltfLoader, HiddenNodesHideAllBelowThem)
+{
+    GltfBuilder builder = triangleDocument();
+    json& nodes = builder.document["nodes"];
+    const auto visibility = [](const json& visible) { return json{{"KHR_node_visibility", {{"visible", visible}}}}; };
+    builder.add("nodes", {{"children", {2}}, {"extensions", visibility(false)}});
+    builder.add("nodes", {{"mesh", 0}, {"children", {3}}, {"extensions", visibility(true)}});
+    builder.add("nodes", {{"mesh", 0}});
+    builder.add("nodes", {{"mesh", 0}, {"extensions", {{"KHR_node_visibility", json::object()}}}});
+    for (const json& required : {json::array(), json::array({"KHR_node_visibility"})})
+    {
+        builder.document["extensionsRequired"] = required;
+        const Scene scene = builder.load();
+        EXPECT_EQ(sceneFault(scene), "");
+        EXPECT_TRUE(scene.warnings.empty());
+        ASSERT_EQ(scene.instances.size(), 2U);
+        EXPECT_EQ(scene.nodes.at(scene.instances[1].node).parent, kNone) << "node 4, whose extension says nothing";
+    }
+    nodes[0]["extensions"] = nodes[4]["extensions"] = visibility(false);
+    const Scene none = builder.load();
+    EXPECT_TRUE(none.instances.empty());
+    expectOneLine(none.warnings, {"nothing is shown", "KHR_node_visibility", "4 nodes"});
+    // Hidden joints move their skin all the same, and what hides nothing by mistake is told.
+    GltfBuilder arm = armDocument();
+    arm.document["nodes"][1]["extensions"] = visibility(false);
+    EXPECT_EQ(arm.load().instances.at(0).skin, 0U);
+    nodes[0]["extensions"] = visibility("no");
+    expectOneLine(builder.load().warnings, {"parts with faults", "KHR_node_visibility.visible"});
 }
 
 TEST(GltfLoader, DefaultSceneIsTheNamedOneOrTheFirstOrAllNodes)

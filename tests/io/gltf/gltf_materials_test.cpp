@@ -251,8 +251,10 @@ TEST(GltfMaterials, TextureWithoutAKnownImageIsLeftOutEvenIfItsFormatIsRequired)
         const Scene scene = builder.load();
         EXPECT_EQ(scene.triangleCount(), 1U);
         EXPECT_FALSE(scene.materials[0].base_color_texture.has_value());
-        expectOneLine(scene.warnings, {"texture left out"});
+        expectOneLine(scene.warnings, {"texture left out", "but one of KHR_texture_basisu; export"});
     }
+    builder.document["textures"][0] = json::object();
+    expectOneLine(builder.load().warnings, {"it has no PNG, JPEG or WebP image; export"});
 }
 
 TEST(GltfMaterials, ImagesThatCannotBeUsedAreLeftOutWithAWarning)
@@ -314,8 +316,11 @@ TEST(GltfMaterials, ExtensionsThatOnlyChangeShadingMayBeRequired)
     GltfBuilder builder = triangleDocument();
     builder.document["extensionsUsed"] = {"KHR_materials_ior", "VENDOR_unheard_of"};
     builder.document["extensionsRequired"] = {"KHR_materials_ior", "KHR_lights_punctual",
-                                              "KHR_materials_emissive_strength"};
+                                              "KHR_materials_emissive_strength", "KHR_materials_diffuse_transmission",
+                                              "KHR_materials_not_yet_known"};
     EXPECT_EQ(builder.load().triangleCount(), 1U);
+    builder.document["extensionsRequired"] = {"VENDOR_materials"};
+    expectInputError(builder, {"requires the extension VENDOR_materials"});
 }
 
 } // namespace

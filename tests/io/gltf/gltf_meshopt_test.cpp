@@ -174,6 +174,25 @@ TEST(GltfMeshopt, PackedMeshEqualsThePlainOne)
     }
 }
 
+TEST(GltfMeshopt, TheExtensionOfKhronosIsReadAsThatOfItsVendors)
+{
+    const Terrain terrain(17);
+    GltfBuilder builder = packedTerrain(terrain);
+    std::string text = builder.document.dump();
+    for (std::size_t at = text.find(kExtension); at != std::string::npos; at = text.find(kExtension))
+    {
+        text.replace(at, 3, "KHR");
+    }
+    builder.document = json::parse(text);
+    const Scene scene = builder.load();
+    EXPECT_EQ(scene.primitives.at(0).positions, terrain.positions);
+    EXPECT_EQ(rotated(indicesOf(scene.primitives[0])), rotated(terrain.indices));
+    ++builder.bin[0]; // of the codec's version
+    expectInputError(builder, {"bufferViews[1]", "later version than the 0 that is read"});
+    builder.bin[0] = 0;
+    expectInputError(builder, {"bufferViews[1]", "does not decode"});
+}
+
 TEST(GltfMeshopt, IndicesMayHaveSixteenBitsAndBeSequences)
 {
     const Terrain terrain(17);
@@ -319,7 +338,8 @@ TEST(GltfMeshopt, WhatContradictsItselfIsRefused)
     { return set(extensionOf(view) + member, value); };
     constexpr std::size_t kPositions = 1; // views 0 and 2 have the packed bytes
     constexpr std::size_t kIndices = 3;
-    expectBroken(setIn(kPositions, "byteLength", 9999), {"bufferViews[1].extensions", "takes 9999 bytes at 0"});
+    expectBroken(setIn(kPositions, "byteLength", 9999),
+                 {"meshopt_compression of bufferViews[1]", "takes 9999 bytes at 0"});
     expectBroken(setIn(kPositions, "byteOffset", ~0ULL), {"bufferViews[1]", "takes"});
     expectBroken(setIn(kPositions, "buffer", 2), {"buffer is 2"});
     expectBroken(setIn(kPositions, "buffer", 1), {"takes", "buffers[1], which has 0"});
