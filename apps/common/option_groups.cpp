@@ -125,7 +125,8 @@ void addMaterialOptions(CLI::App& app, LoadOptions& options)
         ->take_all();
     app.add_flag("--keep-hulls", options.keep_hulls,
                  "keeps inverted hulls, the dark outlines of toon shading, which are left out otherwise");
-    app.add_flag("--strict", options.strict, "refuse files of which something would be left out with a warning");
+    app.add_flag("--strict", options.strict,
+                 "refuse files of which something would be left out, or would have no voxels, with a warning");
 }
 
 void addVoxelOptions(CLI::App& app, VoxelOptions& options, const std::string& also)

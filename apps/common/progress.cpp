@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "common/progress.h"
 
+#include "zvo/error.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -53,6 +55,18 @@ void tellRun(std::string_view text)
 void setQuiet(bool quiet)
 {
     g_quiet = quiet;
+}
+
+void warnOrRefuse(const std::vector<std::string>& warnings, bool strict)
+{
+    if (strict && !warnings.empty())
+    {
+        throw Error(ErrorCode::Input, warnings.front() + "; --strict refuses that");
+    }
+    for (const std::string& warning : warnings)
+    {
+        talk("warning: " + warning);
+    }
 }
 
 void talkError(const std::exception& error)

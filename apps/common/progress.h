@@ -7,6 +7,7 @@
 #include <functional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace zvo::cli
 {
@@ -19,6 +20,9 @@ void tellRun(std::string_view text);
 
 /// Whether tellRun() and progress bars stay silent from now on; at first, they do not.
 void setQuiet(bool quiet);
+
+/// Tells of warnings. strict: throws Error{Input} for the first one in place of it.
+void warnOrRefuse(const std::vector<std::string>& warnings, bool strict);
 
 /// Tells of an error that the program survives.
 void talkError(const std::exception& error);

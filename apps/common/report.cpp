@@ -10,6 +10,37 @@
 namespace zvo::cli
 {
 
+SceneCounts SceneCounts::of(const Scene& scene, const Grid& grid, Coverage coverage)
+{
+    SceneCounts counts;
+    counts.triangles = scene.triangleCount();
+    for (const Instance& instance : scene.instances)
+    {
+        const Primitive& primitive = scene.primitives[instance.primitive];
+        const Material& material = scene.materials[primitive.material];
+        if (material.alpha_mode != AlphaMode::Opaque)
+        {
+            counts.transparent[material.name] += primitive.triangles.size();
+        }
+    }
+    if (coverage == Coverage::Thin)
+    {
+        counts.parts = countParts(scene, grid);
+    }
+    return counts;
+}
+
+Json sceneJson(const SceneCounts& counts, const std::map<std::string, std::uint64_t>& dropped)
+{
+    Json json = {{"triangles", counts.triangles}, {"dropped", dropped}, {"transparent", counts.transparent}};
+    if (counts.parts)
+    {
+        json["parts"] = counts.parts->parts;
+        json["parts_without_voxels"] = counts.parts->lost;
+    }
+    return json;
+}
+
 Json deviceJson(const vk::DeviceReport& device)
 {
     return {{"name", device.name},
@@ -42,13 +73,13 @@ Json headJson(const std::string& schema, const vk::DeviceReport& device, const V
 }
 
 Json octreeJson(const std::string& schema, const vk::DeviceReport& device, const VoxelOptions& options,
-                std::uint64_t triangle_count, const BuildResult& result, const std::string& octree_sha256,
+                const SceneCounts& counts, const BuildResult& result, const std::string& octree_sha256,
                 std::uint64_t peak_bytes)
 {
     const DeviceTree& octree = result.octree;
     const Grid& grid = octree.grid;
     Json json = headJson(schema, device, options, grid);
-    json["scene"] = {{"triangles", triangle_count}, {"dropped", result.dropped}};
+    json["scene"] = sceneJson(counts, result.dropped);
     json["voxels"] = octree.voxel_count;
     json["bricks"] = octree.levels.empty() ? 0U : octree.levels.back().node_count;
     json["nodes"] = octree.node_count;

@@ -4,12 +4,15 @@
 
 #include "common/output.h"
 #include "common/scene_options.h"
+#include "core/upload/lost_parts.h"
 #include "runtime/trees.h"
 #include "vk/device.h"
 
 #include <nlohmann/json.hpp>
 
 #include <cstdint>
+#include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -18,6 +21,19 @@ namespace zvo::cli
 {
 
 using Json = nlohmann::ordered_json;
+
+/// What a scene has, and what of it may have no voxels.
+struct SceneCounts
+{
+    std::uint64_t triangles = 0;
+    std::map<std::string, std::uint64_t> transparent = {}; // triangles by the names of materials that are not opaque
+    std::optional<PartCount> parts = std::nullopt;         // for thin coverage
+
+    static SceneCounts of(const Scene& scene, const Grid& grid, Coverage coverage);
+};
+
+/// counts as a report has them, with the dropped triangles by reason.
+Json sceneJson(const SceneCounts& counts, const std::map<std::string, std::uint64_t>& dropped);
 
 /// Name, driver, type and subgroup size.
 Json deviceJson(const vk::DeviceReport& device);
@@ -34,7 +50,7 @@ Json headJson(const std::string& schema, const vk::DeviceReport& device, const V
 /// The part of the reports of `zvo render` and `zvo voxelize` about the way from triangles to the octree; trace_ms is
 /// null. peak_bytes: the most device memory of the whole run.
 Json octreeJson(const std::string& schema, const vk::DeviceReport& device, const VoxelOptions& options,
-                std::uint64_t triangle_count, const BuildResult& result, const std::string& octree_sha256,
+                const SceneCounts& counts, const BuildResult& result, const std::string& octree_sha256,
                 std::uint64_t peak_bytes);
 
 /// Each pass with its time, in order.

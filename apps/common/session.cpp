@@ -34,14 +34,6 @@ struct KeptDevice
 };
 std::optional<std::vector<KeptDevice>> g_kept_devices;
 
-void tellWarnings(const std::vector<std::string>& warnings)
-{
-    for (const std::string& warning : warnings)
-    {
-        talk(fmt::format("warning: {}", warning));
-    }
-}
-
 void warnOfNothing(bool has_triangles)
 {
     if (!has_triangles)
@@ -56,6 +48,38 @@ std::map<std::string, std::uint64_t> senselessAmong(std::map<std::string, std::u
     std::erase_if(dropped,
                   [](const auto& entry) { return entry.first != "nonfinite" && entry.first != "out_of_range"; });
     return dropped;
+}
+
+// Counts the triangles of a scene by the reason for which none has a voxel.
+std::string whyNoVoxels(const std::map<std::string, std::uint64_t>& dropped, const SceneCounts& counts)
+{
+    if (counts.triangles == 0)
+    {
+        return "the scene has no triangles";
+    }
+    std::uint64_t rest = counts.triangles;
+    std::vector<std::string> reasons;
+    const auto add = [&](std::uint64_t count, std::string_view reason)
+    {
+        count = std::min(count, rest);
+        rest -= count;
+        if (count != 0)
+        {
+            reasons.push_back(fmt::format("{} {}", count, reason));
+        }
+    };
+    const auto countOf = [&](const char* reason) { return dropped.contains(reason) ? dropped.at(reason) : 0; };
+    const std::uint64_t thin = countOf("zero_area");
+    add(countOf("outside") + countOf("out_of_range"), "lie outside of the grid");
+    add(countOf("nonfinite"), "have corners that are not finite");
+    rest -= std::min(thin, rest); // are added last
+    for (const auto& [material, count] : counts.transparent)
+    {
+        add(count, fmt::format("are transparent (material \"{}\")", material));
+    }
+    rest += thin;
+    add(rest, "are too small or thin to reach the middle of a voxel (--coverage conservative keeps them)");
+    return fmt::format("of {}, {}", counted(counts.triangles, "triangle"), fmt::join(reasons, ", "));
 }
 
 // Refuses options that have no effect with a scene file.
@@ -139,7 +163,7 @@ KeptDevices::~KeptDevices()
 Scene loadWithWarnings(std::span<const std::filesystem::path> paths, const LoadOptions& options)
 {
     Scene scene = atRest(loadScene(paths, options));
-    tellWarnings(scene.warnings);
+    warnOrRefuse(scene.warnings, false);
     warnOfNothing(scene.triangleCount() != 0);
     return scene;
 }
@@ -168,9 +192,9 @@ AnimatedScene loadAnimatedSceneWithWarnings(const VoxelOptions& options, bool in
     {
         animated.fixed = atRest(loadScene(options.scenes, load));
         animated.files = options.scenes;
-        tellWarnings(animated.fixed.warnings);
+        warnOrRefuse(animated.fixed.warnings, false);
     }
-    tellWarnings(animated.warnings);
+    warnOrRefuse(animated.warnings, false);
     const bool has_triangles =
         animated.fixed.triangleCount() != 0 ||
         std::any_of(animated.objects.begin(), animated.objects.end(),
@@ -188,7 +212,7 @@ GpuScene uploadWithWarnings(vk::HeadlessDevice& device, const Scene& scene, cons
 {
     GpuScene uploaded = uploadScene(device, scene, options.hasAttributes(), std::nullopt,
                                     {grid, options.coverage, [&](double done) { progress.within(done); }});
-    tellWarnings(uploaded.warnings);
+    warnOrRefuse(uploaded.warnings, false);
     return uploaded;
 }
 
@@ -215,20 +239,25 @@ Grid placeGrid(const VoxelOptions& options, const AnimatedScene& animated, const
     return options.ground && !wanted ? gridWithGround(grid, bounds) : grid;
 }
 
-bool warnOfDropped(std::uint64_t voxel_count, const std::map<std::string, std::uint64_t>& dropped)
+bool warnOfDropped(std::uint64_t voxel_count, const std::map<std::string, std::uint64_t>& dropped,
+                   const SceneCounts& counts, bool strict)
 {
-    bool told = voxel_count == 0;
-    if (told)
+    std::vector<std::string> lines;
+    if (voxel_count == 0)
     {
-        talk("warning: there are no voxels; the grid misses the scene, or its triangles have no area at this "
-             "resolution");
+        lines.push_back("there are no voxels: " + whyNoVoxels(dropped, counts));
+    }
+    else if (counts.parts && counts.parts->lost != 0)
+    {
+        lines.push_back(fmt::format("{} of {} parts {} no voxel at this resolution; --coverage conservative keeps them",
+                                    counts.parts->lost, counts.parts->parts, counts.parts->lost == 1 ? "has" : "have"));
     }
     for (const auto& [reason, count] : senselessAmong(dropped))
     {
-        talk(fmt::format("warning: {} left out ({})", counted(count, "triangle"), reason));
-        told = true;
+        lines.push_back(fmt::format("{} left out ({})", counted(count, "triangle"), reason));
     }
-    return told;
+    warnOrRefuse(lines, strict);
+    return !lines.empty();
 }
 
 bool warnOfDroppedTriangles(double seconds, const std::map<std::string, std::uint64_t>& dropped)

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "common/progress.h"
+#include "common/report.h"
 #include "common/scene_options.h"
 #include "core/base/grid.h"
 #include "core/scene/scene.h"
@@ -61,9 +62,11 @@ GpuScene uploadWithWarnings(vk::HeadlessDevice& device, const Scene& scene, cons
 /// The grid that options or the animated scene ask for, or else the grid around bounds, those of the animated scene.
 Grid placeGrid(const VoxelOptions& options, const AnimatedScene& animated, const Bounds& bounds);
 
-/// Reports if there are no voxels, and triangles that were left out because their numbers make no sense. dropped:
-/// triangles by reason. Returns whether anything was reported.
-bool warnOfDropped(std::uint64_t voxel_count, const std::map<std::string, std::uint64_t>& dropped);
+/// Reports if there are no voxels, and why; connected parts without any; and triangles that were left out because their
+/// numbers make no sense. dropped: triangles by reason. Returns whether anything was reported. strict: throws
+/// Error{Input} in place of it.
+bool warnOfDropped(std::uint64_t voxel_count, const std::map<std::string, std::uint64_t>& dropped,
+                   const SceneCounts& counts, bool strict);
 
 /// Reports triangles of dynamic objects that were left out at a time of the animated scene because their numbers make
 /// no sense. Returns whether there were any.

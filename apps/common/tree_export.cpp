@@ -2,6 +2,8 @@
 #include "common/tree_export.h"
 
 #include "common/normal.h"
+#include "common/progress.h"
+#include "common/words.h"
 #include "core/base/morton.h"
 #include "core/file/zvo_file.h"
 #include "io/voxel/glb_write.h"
@@ -126,8 +128,14 @@ std::string treeFormatOf(const std::string& path)
     return std::ranges::find(kTreeFormats, format) != kTreeFormats.end() ? format : "";
 }
 
-void writeTree(const TreeData& tree, std::string_view format, Output& output)
+void writeTree(const TreeData& tree, std::string_view format, Output& output, bool strict)
 {
+    if (!tree.emission.empty() && (format == "ply" || format == "morton" || format == "nvdb"))
+    {
+        warnOrRefuse({fmt::format("the emission of {} left out, as a .{} file has none",
+                                  counted(tree.emission.size(), "voxel"), format)},
+                     strict);
+    }
     const auto write = [&output](std::span<const std::byte> bytes) { output.write(bytes); };
     if (format == "ply")
     {

@@ -12,8 +12,12 @@
 
 #include <fmt/format.h>
 
+#include <array>
+#include <fstream>
 #include <optional>
 #include <string>
+#include <string_view>
+#include <system_error>
 #include <vector>
 
 namespace zvo::cli
@@ -21,7 +25,14 @@ namespace zvo::cli
 
 bool isVoxFile(const std::filesystem::path& path)
 {
-    return extensionOf(path.string()) == ".vox";
+    std::error_code failure;
+    if (extensionOf(path.string()) == ".vox" || !std::filesystem::is_regular_file(path, failure))
+    {
+        return extensionOf(path.string()) == ".vox"; // a pipe gives its first bytes only once
+    }
+    std::array<char, 4> first{};
+    std::ifstream(path, std::ios::binary).read(first.data(), first.size());
+    return std::string_view(first.data(), first.size()) == "VOX ";
 }
 
 bool isTreeFile(const std::filesystem::path& path)
@@ -29,22 +40,19 @@ bool isTreeFile(const std::filesystem::path& path)
     return isZvoFile(path) || isVoxFile(path);
 }
 
-TreeData treeOfVox(std::span<const std::uint8_t> bytes, const std::filesystem::path& path)
+TreeData treeOfVox(std::span<const std::uint8_t> bytes, const std::filesystem::path& path, bool strict)
 {
     const VoxVoxels voxels = readVox(bytes, path);
-    for (const std::string& warning : voxels.warnings)
-    {
-        talk(fmt::format("warning: {}", warning));
-    }
+    warnOrRefuse(voxels.warnings, strict);
     TreeData tree = octreeOfVoxels(voxels.grid, voxels.codes);
     addColors(tree, voxels.colors);
     addEmission(tree, voxels.emission);
     return tree;
 }
 
-TreeData loadVox(const std::filesystem::path& path, vk::HeadlessDevice& device)
+TreeData loadVox(const std::filesystem::path& path, vk::HeadlessDevice& device, bool strict)
 {
-    TreeData tree = treeOfVox(readFile(path), path);
+    TreeData tree = treeOfVox(readFile(path), path, strict);
     if (tree.nodes.empty())
     {
         return tree;
@@ -57,9 +65,9 @@ TreeData loadVox(const std::filesystem::path& path, vk::HeadlessDevice& device)
     return tree;
 }
 
-TreeData loadTree(const std::filesystem::path& path, const std::function<vk::HeadlessDevice&()>& device)
+TreeData loadTree(const std::filesystem::path& path, const std::function<vk::HeadlessDevice&()>& device, bool strict)
 {
-    return isVoxFile(path) ? loadVox(path, device()) : readZvo(path).tree;
+    return isVoxFile(path) ? loadVox(path, device(), strict) : readZvo(path).tree;
 }
 
 Bounds boundsOf(const TreeData& tree)

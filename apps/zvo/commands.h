@@ -125,6 +125,7 @@ struct ConvertOptions
     OutputOptions output;
     std::string format;                             // empty: the output's extension says
     TreeStructure structure = TreeStructure::Svdag; // of a .zvo output
+    bool strict = false;                            // refuses to leave something out
     DeviceOptions device;
 };
 

@@ -59,7 +59,7 @@ void convert(const ConvertOptions& options)
         device = device ? device : openDevice(options.device);
         return *device;
     };
-    TreeData tree = loadTree(options.file, needDevice);
+    TreeData tree = loadTree(options.file, needDevice, options.strict);
     if (format == "zvo" && tree.structure != options.structure)
     {
         if (tree.structure == TreeStructure::Svdag)
@@ -71,7 +71,7 @@ void convert(const ConvertOptions& options)
         tree = compressTree(needDevice(), std::move(tree));
     }
     progress.begin("writing");
-    writeTree(tree, format, output);
+    writeTree(tree, format, output, options.strict);
     if (device)
     {
         checkValidation(*device);

@@ -75,7 +75,7 @@ public:
     // Shows a static scene; the cameras orbit or fly.
     void turn(Scene&& scene, const Grid& grid, const Cameras& cameras, const glm::dvec3& center)
     {
-        const auto report = [&](const BuildResult& built) { m_report.addOctree(built, m_triangle_count); };
+        const auto report = [&](const BuildResult& built) { m_report.addOctree(built, m_counts); };
         turn(makeTree(std::move(scene), grid, report), cameras, center);
     }
 
@@ -93,6 +93,7 @@ public:
     void play(AnimatedScene&& animated, const Grid& grid, const Cameras& cameras)
     {
         m_progress.begin("voxelizing what stands still");
+        m_counts = SceneCounts::of(animated.fixed, grid, m_options.voxels.coverage);
         LiveScene scene(m_device, std::move(animated), grid,
                         {m_options.voxels.coverage, m_options.voxels.hasAttributes(), structure()});
         for (std::uint32_t i = 0; goesOn(i); ++i)
@@ -108,7 +109,9 @@ public:
             if (i == 0)
             {
                 const StaticInfo& part = scene.info().fixed;
-                warnOfDropped(part.voxel_count + update.report.dynamic_count, part.dropped);
+                m_counts.triangles += scene.info().moving_triangle_count;
+                warnOfDropped(part.voxel_count + update.report.dynamic_count, part.dropped, m_counts,
+                              m_options.voxels.load.strict);
                 m_report.addAnimatedScene(scene, update);
                 m_report.addNodePaths(paths_passes);
             }
@@ -129,9 +132,9 @@ public:
             {
                 if (i == 0)
                 {
-                    m_report.addOctree(built, m_triangle_count);
+                    m_report.addOctree(built, m_counts);
                 }
-                frame = m_report.rebuiltFrame(m_pictures.number(i), seconds, built, m_triangle_count);
+                frame = m_report.rebuiltFrame(m_pictures.number(i), seconds, built, m_counts.triangles);
             };
             const DeviceTree tree = makeTree(sceneAt(animated, seconds), grid, report);
             if (m_renderer.interrupted())
@@ -192,7 +195,11 @@ private:
     // Makes the tree of a scene to be traced. report is called with the octree.
     template <typename Report> DeviceTree makeTree(Scene&& scene, const Grid& grid, const Report& report)
     {
-        m_triangle_count = scene.triangleCount();
+        if (m_counts.triangles == 0) // of the first scene, which is reported
+        {
+            m_counts = SceneCounts::of(scene, grid, m_options.voxels.coverage);
+        }
+        m_counts.triangles = scene.triangleCount();
         StaticListener listener;
         listener.operation = [&](std::string_view operation) { m_progress.begin(operation); };
         listener.decoded = [&](double done) { m_progress.within(done); };
@@ -200,7 +207,8 @@ private:
         listener.built = [&](const BuildResult& built)
         {
             // Only once, not for each frame.
-            m_has_warned = m_has_warned || warnOfDropped(built.octree.voxel_count, built.dropped);
+            m_has_warned = m_has_warned || warnOfDropped(built.octree.voxel_count, built.dropped, m_counts,
+                                                         m_options.voxels.load.strict);
             report(built);
         };
         StaticPart part =
@@ -231,8 +239,8 @@ private:
     vk::HeadlessDevice& m_device = *m_opened;
     Renderer m_renderer;
     RenderReport m_report;
-    std::uint64_t m_triangle_count = 0; // of the last voxelized scene
-    bool m_has_warned = false;          // of dropped triangles, which may occur in every frame
+    SceneCounts m_counts;      // triangles of the last voxelized scene, all else of the first one
+    bool m_has_warned = false; // of dropped triangles, which may occur in every frame
 };
 
 // The cameras that options ask for, which show subject. animated: has the scene's own cameras.
@@ -255,10 +263,12 @@ void renderTree(const RenderOptions& options, const CameraWork& camera_work, Pic
     Progress progress(2 + pictures.count());
     progress.begin("loading");
     RenderRun run(options, camera_work, pictures, progress);
-    TreeData tree = loadTree(options.voxels.scenes.front(), [&run]() -> vk::HeadlessDevice& { return run.device(); });
+    TreeData tree = loadTree(
+        options.voxels.scenes.front(), [&run]() -> vk::HeadlessDevice& { return run.device(); },
+        options.voxels.load.strict);
     if (tree.voxel_count == 0)
     {
-        talk("warning: the file has no voxels");
+        warnOrRefuse({"the file has no voxels"}, options.voxels.load.strict);
     }
     const Bounds subject = subjectOf(boundsOf(tree), tree.grid);
     const Cameras cameras = chooseCameras(options, AnimatedScene(), subject);

@@ -24,15 +24,15 @@ Json updateFrame(std::uint32_t number, double seconds, const LiveUpdate& update)
             {"retries", update.retry_count}};
 }
 
-void RenderReport::addOctree(const BuildResult& result, std::uint64_t triangle_count)
+void RenderReport::addOctree(const BuildResult& result, const SceneCounts& counts)
 {
-    m_built =
-        fmt::format("{} of {}^3 from {}; voxelize {:.1f} ms, build {:.1f} ms",
-                    counted(result.octree.voxel_count, "voxel"), result.octree.grid.resolution(),
-                    counted(triangle_count, "triangle"), result.operationMs("voxelize"), result.operationMs("octree"));
+    m_built = fmt::format("{} of {}^3 from {}; voxelize {:.1f} ms, build {:.1f} ms",
+                          counted(result.octree.voxel_count, "voxel"), result.octree.grid.resolution(),
+                          counted(counts.triangles, "triangle"), result.operationMs("voxelize"),
+                          result.operationMs("octree"));
     if (!m_options.output.json.empty())
     {
-        m_json = octreeJson("zvo.render/1", m_device.device().report(), m_options.voxels, triangle_count, result,
+        m_json = octreeJson("zvo.render/1", m_device.device().report(), m_options.voxels, counts, result,
                             octreeSha256(m_device, result.octree), 0);
     }
 }

@@ -29,8 +29,8 @@ class RenderReport
 public:
     RenderReport(const RenderOptions& options, vk::HeadlessDevice& device) : m_options(options), m_device(device) {}
 
-    /// Adds the octree of the first picture, and the number of its triangles.
-    void addOctree(const BuildResult& result, std::uint64_t triangle_count);
+    /// Adds the octree of the first picture, and the counts of its scene.
+    void addOctree(const BuildResult& result, const SceneCounts& counts);
 
     /// Adds the DAG that was made of that octree. Later DAGs are not reported.
     void addDag(const StaticPart& part);

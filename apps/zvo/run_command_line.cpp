@@ -260,6 +260,7 @@ void addOptions(CLI::App& convert, ConvertOptions& options)
         },
         "FORMAT", "what to write: ply, vox, morton, glb, nvdb or zvo (default: as the output's extension says)")
         ->group("Output");
+    convert.add_flag("--strict", options.strict, "refuse what would be left out with a warning")->group("Output");
     addQuietOption(convert);
     addDeviceOptions(convert, options.device);
 }

@@ -53,7 +53,7 @@ public:
         }
         const double seconds = loopedTime(animated, voxels.time.value_or(0.0));
         const Scene still = sceneAt(std::move(animated), seconds);
-        triangle_count = still.triangleCount();
+        counts = SceneCounts::of(still, grid, voxels.coverage);
         progress.begin("copying to the device");
         m_device = openDevice(device);
         m_scene.emplace(uploadWithWarnings(*m_device, still, voxels, grid, progress));
@@ -81,7 +81,7 @@ public:
     Output output;
     Progress progress{4};
     Grid grid;
-    std::uint64_t triangle_count = 0;
+    SceneCounts counts;
 
 private:
     std::optional<Output> m_report;
@@ -146,7 +146,7 @@ Json builtJson(VoxelRun& run, const BuildFileOptions& options, const Built& buil
 {
     const TreeData& tree = built.tree;
     Json json = headJson("zvo.build/1", run.device().device().report(), options.voxels, tree.grid);
-    json["scene"] = {{"triangles", run.triangle_count}, {"dropped", built.dropped}};
+    json["scene"] = sceneJson(run.counts, built.dropped);
     json["structure"] = structureName(tree.structure);
     json["attribute_form"] = formatName(tree.attributeFormat());
     json["voxels"] = tree.voxel_count;
@@ -181,7 +181,7 @@ void voxelize(const VoxelizeOptions& options)
     run.progress.begin("voxelizing");
     const BuildResult result =
         buildOctree(device, run.scene(), run.grid, {options.voxels.coverage, options.voxels.hasAttributes(), {}});
-    warnOfDropped(result.octree.voxel_count, result.dropped);
+    warnOfDropped(result.octree.voxel_count, result.dropped, run.counts, options.voxels.load.strict);
 
     run.progress.begin("writing");
     {
@@ -191,12 +191,12 @@ void voxelize(const VoxelizeOptions& options)
     run.finish(
         [&]
         {
-            return octreeJson("zvo.voxelize/1", device.device().report(), options.voxels, run.triangle_count, result,
+            return octreeJson("zvo.voxelize/1", device.device().report(), options.voxels, run.counts, result,
                               octreeSha256(device, result.octree), device.device().memory().peakBytes());
         });
     tellRun(fmt::format("{} of {}^3 from {}; voxelize {:.1f} ms, build {:.1f} ms on {}",
                         counted(result.octree.voxel_count, "voxel"), run.grid.resolution(),
-                        counted(run.triangle_count, "triangle"), result.operationMs("voxelize"),
+                        counted(run.counts.triangles, "triangle"), result.operationMs("voxelize"),
                         result.operationMs("octree"), device.device().report().name));
 }
 
@@ -210,14 +210,14 @@ void buildFile(const BuildFileOptions& options)
     const bool is_dag = options.structure == TreeStructure::Svdag;
     const Built built = is_dag ? buildSvdag(run, options) : buildSvo(run, options);
     run.freeScene();
-    warnOfDropped(built.tree.voxel_count, built.dropped);
+    warnOfDropped(built.tree.voxel_count, built.dropped, run.counts, options.voxels.load.strict);
 
     run.progress.begin("writing");
     writeZvo(built.tree, [&run](std::span<const std::byte> bytes) { run.output.write(bytes); });
     run.finish([&] { return builtJson(run, options, built); });
     tellRun(fmt::format(
         "{} of {}^3 from {}; {} bytes of nodes, {} of attributes; voxelize {:.1f} ms, build {:.1f} ms{}{} on {}",
-        counted(built.tree.voxel_count, "voxel"), run.grid.resolution(), counted(run.triangle_count, "triangle"),
+        counted(built.tree.voxel_count, "voxel"), run.grid.resolution(), counted(run.counts.triangles, "triangle"),
         built.tree.geometryBytes(), built.tree.attributeBytes(), operationMs(built.passes, "voxelize"),
         operationMs(built.passes, "octree"),
         is_dag ? fmt::format(", compress {:.1f} ms", operationMs(built.passes, "svdag")) : "",

@@ -103,6 +103,64 @@ TEST_F(CliBadInput, EmptySceneRendersTheBackground)
     EXPECT_EQ(pixels("empty.png").rgba, pixels("cube.png").rgba);
 }
 
+/// A cube of which the rest of a document can be made, with a material.
+json smallCube(GltfBuilder& builder, float from, float to, const json& material)
+{
+    const std::size_t corners =
+        builder.addPositions({from, from, from, to, from, from, from, to, from, from, from, to});
+    const std::size_t order =
+        builder.addAccessor<std::uint8_t>("SCALAR", kU8, 12, {0, 1, 2, 0, 1, 3, 0, 2, 3, 1, 2, 3});
+    return {
+        {"attributes", {{"POSITION", corners}}}, {"indices", order}, {"material", builder.add("materials", material)}};
+}
+
+TEST_F(CliBadInput, NoVoxelsAreExplainedByCountsAndRefusedIfStrict)
+{
+    const json glass = {
+        {"name", "glass"}, {"alphaMode", "BLEND"}, {"pbrMetallicRoughness", {{"baseColorFactor", {1, 1, 1, 0}}}}};
+    const json net = {
+        {"name", "net"}, {"alphaMode", "MASK"}, {"pbrMetallicRoughness", {{"baseColorFactor", {1, 1, 1, 0.1}}}}};
+    GltfBuilder builder;
+    builder.addMeshNode(smallCube(builder, 0.0F, 4.0F, glass));
+    builder.addMeshNode(smallCube(builder, 0.0F, 4.0F, net));
+    builder.addMeshNode(smallCube(builder, 20.0F, 24.0F, {{"name", "far"}}));
+    builder.addMeshNode(smallCube(builder, 4.01F, 4.05F, {{"name", "speck"}}));
+    m_dir.write("lost.glb", builder.glb());
+    const std::string command = "voxelize lost.glb -o a.morton --json a.json --grid 0,0,0,1 --resolution 8 -f";
+    const std::string told = run(command).err;
+    EXPECT_TRUE(contains(told, "there are no voxels: of 16 triangles, 4 lie outside of the grid, 4 are transparent "
+                               "(material \"glass\"), 4 are transparent (material \"net\"), 4 are too small or thin"))
+        << told;
+    const json report = jsonFile("a.json");
+    EXPECT_EQ(report["voxels"], 0);
+    EXPECT_EQ(report["scene"]["dropped"]["outside"], 4);
+    EXPECT_EQ(report["scene"]["transparent"], (json{{"glass", 4}, {"net", 4}}));
+    EXPECT_EQ(report["scene"]["parts"], 3);
+    EXPECT_EQ(report["scene"]["parts_without_voxels"], 1);
+    expectError(command + " --strict", 3, {"there are no voxels", "glass", "--strict refuses"});
+    expectError("render lost.glb -o a.png --size 8x8 --strict --grid 0,0,0,1 --resolution 8 -f", 3, {"no voxels"});
+    expectError("build lost.glb -o a.zvo --strict --grid 0,0,0,1 --resolution 8 -f", 3, {"no voxels"});
+    EXPECT_FALSE(contains(run("voxelize lost.glb -o a.morton --grid 0,0,0,1 --resolution 8 -f --strict --coverage "
+                              "conservative")
+                              .err,
+                          "warning"));
+}
+
+TEST_F(CliBadInput, PartsWithoutVoxelsAreCounted)
+{
+    GltfBuilder builder = coloredCube();
+    const std::size_t rod = builder.addPositions({1.5F, 0.5F, 0.5F, 2.5F, 0.5F, 0.5F, 2.5F, 0.50001F, 0.5F});
+    builder.addMeshNode({{"attributes", {{"POSITION", rod}}}});
+    m_dir.write("rod.glb", builder.glb());
+    const std::string lost =
+        "warning: 1 of 2 parts has no voxel at this resolution; --coverage conservative keeps them";
+    EXPECT_TRUE(contains(run("voxelize rod.glb -o a.morton --resolution 8").err, lost));
+    EXPECT_TRUE(contains(run("build rod.glb -o a.zvo --resolution 8").err, lost));
+    EXPECT_TRUE(contains(run("render rod.glb -o a.png --size 8x8 --resolution 8").err, lost));
+    expectError("voxelize rod.glb -o a.morton -f --resolution 8 --strict", 3, {"1 of 2", "--strict refuses"});
+    run("voxelize rod.glb -o b.morton --resolution 8 --strict --coverage conservative");
+}
+
 TEST_F(CliBadInput, TrianglesThatAreNotFiniteAreCountedAndTheRestIsUsed)
 {
     GltfBuilder builder = coloredCube();

@@ -99,12 +99,14 @@ std::unique_ptr<World> World::make(vk::HeadlessDevice& device, const WorldOption
                               LiveScene(device, std::move(*input.animated), grid, liveOptions(options), listener)});
         if (!world->scene.moves())
         {
-            cli::warnOfDropped(world->scene.info().fixed.voxel_count, world->scene.info().fixed.dropped);
+            const StaticInfo& fixed = world->scene.info().fixed;
+            cli::warnOfDropped(fixed.voxel_count, fixed.dropped, {.triangles = fixed.triangle_count}, false);
         }
     }
     else if (!files.empty())
     {
-        const TreeData tree = input.tree ? std::move(*input.tree) : cli::loadVox(files.front(), device);
+        const TreeData tree =
+            input.tree ? std::move(*input.tree) : cli::loadVox(files.front(), device, options.voxels.load.strict);
         if (tree.voxel_count == 0)
         {
             cli::talk("warning: the file has no voxels");

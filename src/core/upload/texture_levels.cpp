@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "core/upload/texture_levels.h"
 
-#include "core/base/finite.h"
 #include "core/upload/fixed_uv.h"
+#include "core/upload/lattice_corners.h"
 #include "shared/scene.h"
-#include "voxelize/voxelize.h"
 
 #include <algorithm>
 #include <array>
@@ -18,52 +17,8 @@ namespace zvo
 namespace
 {
 
-using Corners = std::array<glm::i64vec3, 3>;
-
 // What a device may round an area to, relative to what is computed here: some units in the last place.
 constexpr float kRounding = 0x1p-20F;
-
-// The vertices of a primitive on the lattice of a grid, as shaders/voxelize/vertex.glsl snaps them. Nothing where a
-// vertex has no place on it.
-std::vector<std::optional<glm::i64vec3>> latticePoints(const Primitive& primitive, const glm::mat4& transform,
-                                                       const Grid& grid)
-{
-    const auto scale = static_cast<float>(gpu::kVoxelLattice / static_cast<double>(grid.voxel_size));
-    constexpr auto kLimit = static_cast<float>(gpu::kLatticeLimit);
-    std::vector<std::optional<glm::i64vec3>> points;
-    points.reserve(primitive.positions.size());
-    for (const glm::vec3& position : primitive.positions)
-    {
-        const glm::vec3 scaled = (transformPoint(transform, position) - grid.origin) * scale;
-        const glm::vec3 q(std::nearbyint(scaled.x), std::nearbyint(scaled.y), std::nearbyint(scaled.z));
-        const bool is_placed = isFinite(q) && std::max({std::abs(q.x), std::abs(q.y), std::abs(q.z)}) <= kLimit;
-        points.push_back(is_placed ? std::optional(glm::i64vec3(q)) : std::nullopt);
-    }
-    return points;
-}
-
-bool touchesGrid(const Corners& corners, const Grid& grid)
-{
-    const std::int64_t end = std::int64_t{gpu::kVoxelLattice} * grid.resolution();
-    for (int axis = 0; axis < 3; ++axis)
-    {
-        const auto [low, high] = std::minmax({corners[0][axis], corners[1][axis], corners[2][axis]});
-        if (high < 0 || low > end)
-        {
-            return false;
-        }
-    }
-    return true;
-}
-
-// The largest component of the cross product of two edges, |n_w|.
-std::int64_t doubleArea(const Corners& corners)
-{
-    const glm::i64vec3 e1 = corners[1] - corners[0];
-    const glm::i64vec3 e2 = corners[2] - corners[0];
-    return std::max({std::abs(e1.y * e2.z - e1.z * e2.y), std::abs(e1.z * e2.x - e1.x * e2.z),
-                     std::abs(e1.x * e2.y - e1.y * e2.x)});
-}
 
 std::int64_t uvArea(const std::array<glm::i64vec2, 3>& uvs)
 {
@@ -132,16 +87,12 @@ std::vector<std::uint32_t> leastLevels(const Scene& scene, const std::vector<boo
         {
             continue;
         }
-        const auto points = latticePoints(primitive, instance.transform, grid);
         for (const glm::uvec3& t : primitive.triangles)
         {
-            if (!points[t.x] || !points[t.y] || !points[t.z])
-            {
-                continue;
-            }
-            const Corners corners = {*points[t.x], *points[t.y], *points[t.z]};
-            const std::int64_t area = doubleArea(corners);
-            if ((area == 0 && coverage == Coverage::Thin) || !touchesGrid(corners, grid))
+            const std::optional<LatticeCorners> corners = latticeCorners(primitive, t, instance.transform, grid);
+            const glm::i64vec3 n = corners ? glm::abs(normalOf(*corners)) : glm::i64vec3(0);
+            const std::int64_t area = std::max({n.x, n.y, n.z});
+            if (!corners || (area == 0 && coverage == Coverage::Thin))
             {
                 continue;
             }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "io/scene/hulls.h"
 
+#include "core/scene/mesh_parts.h"
 #include "io/scene/probe_tree.h"
 
 #include <glm/common.hpp>
@@ -8,10 +9,8 @@
 #include <glm/matrix.hpp>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
-#include <numeric>
 #include <utility>
 
 namespace zvo
@@ -63,64 +62,6 @@ bool isInsideOut(const Primitive& primitive)
         extent.add(cornersOf(primitive, triangle), centre);
     }
     return extent.isInsideOut();
-}
-
-// The connected parts of a primitive. Triangles are connected by corners at the same place.
-struct Parts
-{
-    std::vector<std::uint32_t> of_triangle; // [triangles] number of the part
-    std::uint32_t count = 0;
-};
-
-std::uint32_t rootOf(std::vector<std::uint32_t>& parents, std::uint32_t i)
-{
-    while (parents[i] != i)
-    {
-        parents[i] = parents[parents[i]];
-        i = parents[i];
-    }
-    return i;
-}
-
-// For each vertex, a vertex at the same place: the same one for all that are there.
-std::vector<std::uint32_t> weldVertices(const std::vector<glm::vec3>& positions)
-{
-    std::vector<std::uint32_t> order(positions.size());
-    std::iota(order.begin(), order.end(), 0U);
-    // By bits, which have an order even where positions have none. 0.0 is added, as -0.0 is the same place.
-    const auto key = [&](std::uint32_t i)
-    {
-        const glm::uvec3 bits = glm::floatBitsToUint(positions[i] + 0.0F);
-        return std::array{bits.x, bits.y, bits.z};
-    };
-    std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) { return key(a) < key(b); });
-    std::vector<std::uint32_t> welded(positions.size());
-    for (std::size_t i = 0; i < order.size(); ++i)
-    {
-        const bool same = i != 0 && key(order[i]) == key(order[i - 1]);
-        welded[order[i]] = same ? welded[order[i - 1]] : order[i];
-    }
-    return welded;
-}
-
-Parts partsOf(const Primitive& primitive)
-{
-    std::vector<std::uint32_t> parents = weldVertices(primitive.positions);
-    for (const glm::uvec3& triangle : primitive.triangles)
-    {
-        const std::uint32_t root = rootOf(parents, triangle.x);
-        parents[rootOf(parents, triangle.y)] = root;
-        parents[rootOf(parents, triangle.z)] = root;
-    }
-    std::vector<std::uint32_t> numbers(parents.size(), kNone);
-    Parts parts;
-    for (const glm::uvec3& triangle : primitive.triangles)
-    {
-        std::uint32_t& number = numbers[rootOf(parents, triangle.x)];
-        number = number == kNone ? parts.count++ : number;
-        parts.of_triangle.push_back(number);
-    }
-    return parts;
 }
 
 // A part of a primitive that is inside out.
@@ -192,7 +133,7 @@ private:
     {
         const Primitive& primitive = m_scene.primitives[number];
         m_parts[number] = partsOf(primitive);
-        const Parts& parts = m_parts[number];
+        const MeshParts& parts = m_parts[number];
         struct Part
         {
             Extent extent;
@@ -303,7 +244,7 @@ private:
 
     const Scene& m_scene;
     std::vector<std::vector<const Instance*>> m_instances; // by primitive
-    std::vector<Parts> m_parts;                            // by primitive; of those with candidates
+    std::vector<MeshParts> m_parts;                        // by primitive; of those with candidates
     std::vector<Candidate> m_candidates;
     std::vector<Probe> m_probes;
     std::uint64_t m_hull_count = 0;

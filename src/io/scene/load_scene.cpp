@@ -87,7 +87,8 @@ Scene loadFile(const std::filesystem::path& path, ImageDecoding decoding)
     {
         bytes = *std::move(utf8);
     }
-    if (extension == ".vox")
+    if (extension == ".vox" ||
+        std::string_view(reinterpret_cast<const char*>(bytes.data()), bytes.size()).starts_with("VOX "))
     {
         throw inputError(path, "a .vox file holds voxels and no triangles; zvo render shows it, zvo convert a.vox -o "
                                "a.zvo makes a tree of it");
