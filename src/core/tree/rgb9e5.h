@@ -24,4 +24,10 @@ inline std::uint32_t encodeRgb9e5(const gpu::vec3& color)
     return mantissa.r | mantissa.g << 9U | mantissa.b << 18U | static_cast<std::uint32_t>(exponent) << 27U;
 }
 
+inline gpu::vec3 decodeRgb9e5(std::uint32_t code)
+{
+    const gpu::vec3 mantissa(code & 511U, code >> 9U & 511U, code >> 18U & 511U);
+    return std::ldexp(1.0F, static_cast<int>(code >> 27U) - 24) * mantissa;
+}
+
 } // namespace zvo

@@ -15,6 +15,12 @@ inline double srgbToLinear(double encoded)
     return value <= 0.04045 ? value / 12.92 : std::pow((value + 0.055) / 1.055, 2.4);
 }
 
+/// The sRGB encoded fraction of a linear one in [0, 1].
+inline double linearToSrgb(double linear)
+{
+    return linear <= 0.0031308 ? linear * 12.92 : 1.055 * std::pow(linear, 1.0 / 2.4) - 0.055;
+}
+
 /// The linear colour of an sRGB encoded one, with its alpha.
 inline glm::vec4 srgbToLinear(const glm::dvec4& encoded)
 {

@@ -5,14 +5,17 @@
 #include "core/tree/tree_build.h"
 #include "io/image/srgb.h"
 #include "io/voxel/colored_voxels.h"
+#include "io/voxel/lamps.h"
 #include "io/voxel/write_bytes.h"
 #include "zvo/error.h"
 
 #include <algorithm>
 #include <array>
+#include <cfloat>
 #include <cmath>
 #include <cstdint>
 #include <fmt/format.h>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -46,6 +49,7 @@ struct Quad
     std::uint32_t width; // along u
     std::uint32_t height;
     std::uint32_t color;
+    std::uint32_t material;
 };
 
 // A face of one voxel. Its key sorts by layer, row and column.
@@ -53,6 +57,7 @@ struct Face
 {
     std::uint64_t key;
     std::uint32_t color;
+    std::uint32_t material; // 0: without light; otherwise that of a lamp
 
     static constexpr std::uint32_t kBits = 20;
 
@@ -65,13 +70,16 @@ struct Face
     [[nodiscard]] std::uint32_t u() const { return static_cast<std::uint32_t>(key) & ((1U << kBits) - 1); }
 };
 
-std::vector<Face> facesOf(const TreeData& tree, const Side& side)
+std::vector<Face> facesOf(const TreeData& tree, const Lamps& lamps, const Side& side)
 {
     std::vector<Face> faces;
+    std::uint64_t voxel = 0;
+    auto next_lamp = lamps.of_voxel.begin();
     forEachColoredVoxel(tree,
                         [&](std::uint64_t code, std::uint32_t color)
                         {
                             const glm::ivec3 cell(cellOfCode(code));
+                            const std::uint32_t material = isEmissive(tree, voxel++) ? *next_lamp++ + 1U : 0U;
                             glm::ivec3 neighbor = cell;
                             neighbor[side.axis] += side.upper ? 1 : -1;
                             if (!hasVoxel(tree, neighbor))
@@ -79,7 +87,7 @@ std::vector<Face> facesOf(const TreeData& tree, const Side& side)
                                 faces.push_back({Face::keyOf(static_cast<std::uint32_t>(cell[side.axis]),
                                                              static_cast<std::uint32_t>(cell[side.v()]),
                                                              static_cast<std::uint32_t>(cell[side.u()])),
-                                                 color});
+                                                 color, material});
                             }
                         });
     std::sort(faces.begin(), faces.end(), [](const Face& a, const Face& b) { return a.key < b.key; });
@@ -106,7 +114,9 @@ void addQuads(const std::vector<Face>& faces, const Side& side, std::vector<Quad
             current = here;
         }
         std::uint32_t width = 1;
-        for (++i; i < faces.size() && faces[i].key == first.key + width && faces[i].color == first.color; ++i)
+        for (++i; i < faces.size() && faces[i].key == first.key + width && faces[i].color == first.color &&
+                  faces[i].material == first.material;
+             ++i)
         {
             ++width;
         }
@@ -115,7 +125,8 @@ void addQuads(const std::vector<Face>& faces, const Side& side, std::vector<Quad
             ++candidate;
         }
         const bool grows = candidate < open.size() && quads[open[candidate]].u == first.u() &&
-                           quads[open[candidate]].width == width && quads[open[candidate]].color == first.color;
+                           quads[open[candidate]].width == width && quads[open[candidate]].color == first.color &&
+                           quads[open[candidate]].material == first.material;
         if (grows)
         {
             ++quads[open[candidate]].height;
@@ -124,7 +135,7 @@ void addQuads(const std::vector<Face>& faces, const Side& side, std::vector<Quad
         else
         {
             next_open.push_back(quads.size());
-            quads.push_back({side, first.layer(), first.u(), first.v(), width, 1, first.color});
+            quads.push_back({side, first.layer(), first.u(), first.v(), width, 1, first.color, first.material});
         }
     }
 }
@@ -159,13 +170,65 @@ std::array<std::uint16_t, 4> linearColor(std::uint32_t color)
     return linear;
 }
 
-std::string documentOf(const TreeData& tree, std::uint64_t quad_count, const CellBox& box)
+std::string materialOf(const Lamp* lamp)
+{
+    constexpr const char* kSurface = R"({"pbrMetallicRoughness":{"metallicFactor":0,"roughnessFactor":1})";
+    if (lamp == nullptr)
+    {
+        return fmt::format("{}}}", kSurface);
+    }
+    const float strength = std::max({lamp->radiance.r, lamp->radiance.g, lamp->radiance.b});
+    const glm::vec3 factor = lamp->radiance / strength;
+    return fmt::format(R"({},"emissiveFactor":[{},{},{}],"extensions":{{"KHR_materials_emissive_strength":)"
+                       R"({{"emissiveStrength":{}}}}}}})",
+                       kSurface, factor.r, factor.g, factor.b, strength);
+}
+
+// The quads of one material, which are neighbours.
+using Group = std::span<const Quad>;
+
+std::vector<Group> groupsOf(const std::vector<Quad>& quads)
+{
+    std::vector<Group> groups;
+    for (Group rest = quads; !rest.empty(); rest = rest.subspan(groups.back().size()))
+    {
+        const auto differs = [&](const Quad& quad) { return quad.material != rest.front().material; };
+        groups.push_back(rest.first(static_cast<std::size_t>(std::ranges::find_if(rest, differs) - rest.begin())));
+    }
+    return groups;
+}
+
+// Three accessors: positions, colours and indices. first: how many quads stand before the group.
+std::string accessorsOf(const Group& group, std::uint64_t first)
+{
+    glm::vec3 low(FLT_MAX);
+    glm::vec3 high(-FLT_MAX);
+    for (const Quad& quad : group)
+    {
+        for (const glm::vec3& corner : cornersOf(quad))
+        {
+            low = glm::min(low, corner);
+            high = glm::max(high, corner);
+        }
+    }
+    const std::uint64_t vertex_count = group.size() * kVerticesOfQuad;
+    return fmt::format(
+        R"({{"bufferView":0,"byteOffset":{},"componentType":5126,"type":"VEC3","count":{},"min":[{},{},{}],)"
+        R"("max":[{},{},{}]}},)"
+        R"({{"bufferView":1,"byteOffset":{},"componentType":5123,"normalized":true,"type":"VEC4","count":{}}},)"
+        R"({{"bufferView":2,"byteOffset":{},"componentType":5125,"type":"SCALAR","count":{}}})",
+        first * kVerticesOfQuad * sizeof(glm::vec3), vertex_count, low.x, low.y, low.z, high.x, high.y, high.z,
+        first * kVerticesOfQuad * 4 * sizeof(std::uint16_t), vertex_count,
+        first * kIndicesOfQuad * sizeof(std::uint32_t), group.size() * kIndicesOfQuad);
+}
+
+std::string documentOf(const TreeData& tree, const std::vector<Group>& groups, std::uint64_t quad_count,
+                       const Lamps& lamps)
 {
     const std::uint64_t vertex_count = quad_count * kVerticesOfQuad;
-    const std::uint64_t index_count = quad_count * kIndicesOfQuad;
     const std::uint64_t position_bytes = vertex_count * sizeof(glm::vec3);
     const std::uint64_t color_bytes = vertex_count * 4 * sizeof(std::uint16_t);
-    const std::uint64_t index_bytes = index_count * sizeof(std::uint32_t);
+    const std::uint64_t index_bytes = quad_count * kIndicesOfQuad * sizeof(std::uint32_t);
     const Grid& grid = tree.grid;
     std::string json = R"({"asset":{"version":"2.0","generator":"zvo"},"scene":0,"scenes":[{"nodes":[0]}],)";
     json += fmt::format(R"("nodes":[{{"name":"voxels","translation":[{},{},{}],"scale":[{},{},{}]{}}}])", grid.origin.x,
@@ -173,13 +236,24 @@ std::string documentOf(const TreeData& tree, std::uint64_t quad_count, const Cel
                         quad_count == 0 ? "" : R"(,"mesh":0)");
     if (quad_count != 0)
     {
-        json += R"(,"meshes":[{"primitives":[{"attributes":{"POSITION":0,"COLOR_0":1},"indices":2,"material":0}]}],)"
-                R"("materials":[{"pbrMetallicRoughness":{"metallicFactor":0,"roughnessFactor":1}}],)";
-        json += fmt::format(
-            R"("accessors":[{{"bufferView":0,"componentType":5126,"type":"VEC3","count":{},"min":[{},{},{}],)"
-            R"("max":[{},{},{}]}},{{"bufferView":1,"componentType":5123,"normalized":true,"type":"VEC4","count":{}}},)"
-            R"({{"bufferView":2,"componentType":5125,"type":"SCALAR","count":{}}}],)",
-            vertex_count, box.min.x, box.min.y, box.min.z, box.max.x, box.max.y, box.max.z, vertex_count, index_count);
+        std::vector<std::string> materials;
+        std::vector<std::string> primitives;
+        std::vector<std::string> accessors;
+        std::uint64_t first = 0;
+        for (const Group& group : groups)
+        {
+            const std::size_t i = materials.size();
+            const std::uint32_t material = group.front().material;
+            primitives.push_back(
+                fmt::format(R"({{"attributes":{{"POSITION":{},"COLOR_0":{}}},"indices":{},"material":{}}})", 3 * i,
+                            3 * i + 1, 3 * i + 2, i));
+            materials.push_back(materialOf(material == 0 ? nullptr : &lamps.lamps[material - 1]));
+            accessors.push_back(accessorsOf(group, first));
+            first += group.size();
+        }
+        json += fmt::format(R"({},"meshes":[{{"primitives":[{}]}}],"materials":[{}],"accessors":[{}],)",
+                            lamps.lamps.empty() ? "" : R"(,"extensionsUsed":["KHR_materials_emissive_strength"])",
+                            fmt::join(primitives, ","), fmt::join(materials, ","), fmt::join(accessors, ","));
         json += fmt::format(R"("bufferViews":[{{"buffer":0,"byteOffset":0,"byteLength":{},"target":34962}},)"
                             R"({{"buffer":0,"byteOffset":{},"byteLength":{},"target":34962}},)"
                             R"({{"buffer":0,"byteOffset":{},"byteLength":{},"target":34963}}],)",
@@ -195,19 +269,23 @@ std::string documentOf(const TreeData& tree, std::uint64_t quad_count, const Cel
 
 void writeGlb(const TreeData& tree, const WriteBytes& write)
 {
+    constexpr std::size_t kLampsMax = 255; // a material each
+    const Lamps lamps = lampsOf(tree, kLampsMax);
     std::vector<Quad> quads;
     for (int axis = 0; axis < 3; ++axis)
     {
         for (const bool upper : {false, true})
         {
             const Side side = {axis, upper};
-            addQuads(facesOf(tree, side), side, quads);
+            addQuads(facesOf(tree, lamps, side), side, quads);
         }
     }
+    std::ranges::stable_sort(quads, {}, &Quad::material);
+    const std::vector<Group> groups = groupsOf(quads);
     constexpr std::uint64_t kQuadBytes =
         kVerticesOfQuad * (sizeof(glm::vec3) + 4 * sizeof(std::uint16_t)) + kIndicesOfQuad * sizeof(std::uint32_t);
     const std::uint64_t binary_bytes = quads.size() * kQuadBytes;
-    const std::string json = documentOf(tree, quads.size(), voxelBox(tree).value_or(CellBox{}));
+    const std::string json = documentOf(tree, groups, quads.size(), lamps);
     const std::uint64_t file_bytes = 12 + 8 + json.size() + (quads.empty() ? 0 : 8 + binary_bytes);
     if (file_bytes > UINT32_MAX)
     {
@@ -237,12 +315,14 @@ void writeGlb(const TreeData& tree, const WriteBytes& write)
             file.add(std::array{color, color, color, color});
             file.passOn(write);
         }
-        for (std::uint32_t i = 0; i < quads.size(); ++i)
+        for (const Group& group : groups)
         {
-            const std::uint32_t first = i * kVerticesOfQuad;
-            file.add(
-                std::array<std::uint32_t, kIndicesOfQuad>{first, first + 1, first + 2, first, first + 2, first + 3});
-            file.passOn(write);
+            for (std::uint32_t first = 0; first < group.size() * kVerticesOfQuad; first += kVerticesOfQuad)
+            {
+                file.add(std::array<std::uint32_t, kIndicesOfQuad>{first, first + 1, first + 2, first, first + 2,
+                                                                   first + 3});
+                file.passOn(write);
+            }
         }
     }
     write(file.bytes());

@@ -6,6 +6,7 @@
 #include "io/file/text_cursor.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstdlib>
 #include <fmt/format.h>
@@ -21,6 +22,7 @@ namespace
 {
 
 constexpr std::uint32_t kModelEdgeMax = 256;
+constexpr float kMostEmission = 1e10F;
 
 using Dictionary = std::map<std::string_view, std::string_view>;
 
@@ -195,6 +197,15 @@ private:
         {
             readPalette(content);
         }
+        else if (id == "TDCZ")
+        {
+            fail("its voxels are a chunk TDCZ, the compressed format of Teardown, which is not read; save it by "
+                 "MagicaVoxel");
+        }
+        else if (id == "MATT")
+        {
+            readOldMaterial(content);
+        }
         else if (id == "MATL")
         {
             readMaterial(content);
@@ -262,6 +273,27 @@ private:
         }
     }
 
+    // Materials before version 0.99.
+    void readOldMaterial(Content& content)
+    {
+        constexpr std::array<const char*, 4> kTypes = {"_diffuse", "_metal", "_glass", "_emit"};
+        const std::int32_t index = content.number();
+        const auto type = static_cast<std::uint32_t>(content.number());
+        const float weight = std::bit_cast<float>(content.number());
+        setMaterial(index, type < kTypes.size() ? kTypes[type] : "_unknown", weight >= 0.0F ? weight : 1.0F);
+    }
+
+    void setMaterial(std::int32_t index, std::string_view type, float emission)
+    {
+        if (index < 1 || index > static_cast<std::int32_t>(kVoxPaletteSize))
+        {
+            return;
+        }
+        const auto place = static_cast<std::size_t>(index) - 1;
+        m_scene.emission[place] = type == "_emit" ? std::min(emission, kMostEmission) : 0.0F;
+        m_scene.kinds[place] = type == "_emit" || type == "_diffuse" || type.empty() ? "" : type.substr(1);
+    }
+
     // Of materials only the light that they give off is read. The format says what `_emit` and `_flux` are called in
     // MagicaVoxel, emission and power, but not what they are: a step of power counts as ten times the light.
     void readMaterial(Content& content)
@@ -269,11 +301,6 @@ private:
         const std::int32_t index = content.number();
         const Dictionary material = content.dictionary();
         const auto type = material.find("_type");
-        const bool emits = type != material.end() && type->second == "_emit";
-        if (!emits || index < 1 || index > static_cast<std::int32_t>(kVoxPaletteSize))
-        {
-            return;
-        }
         constexpr float kMost = 100.0F; // what is more is no emission that can be chosen
         constexpr float kMostPower = 8.0F;
         const auto value = [&](std::string_view key, float otherwise, float most)
@@ -283,8 +310,11 @@ private:
                 entry == material.end() ? std::nullopt : parseNumber<float>(entry->second);
             return said && *said >= 0.0F ? std::min(*said, most) : otherwise;
         };
-        m_scene.emission[static_cast<std::size_t>(index) - 1] =
-            value("_emit", value("_weight", 1.0F, kMost), kMost) * std::pow(10.0F, value("_flux", 0.0F, kMostPower));
+        const std::string kind(type == material.end() ? "" : type->second);
+        const bool is_rough = kind != "_emit" && kind != "_diffuse" && material.contains("_rough");
+        setMaterial(index, is_rough ? kind + " with roughness" : kind,
+                    value("_emit", value("_weight", 1.0F, kMost), kMost) *
+                        std::pow(10.0F, value("_flux", 0.0F, kMostPower)));
     }
 
     void readNode(std::string_view id, Content& content)
@@ -298,7 +328,9 @@ private:
             content.number(); // reserved
             node.layer = content.number();
             constexpr std::uint32_t kFrameBytesMin = 4;
-            if (content.count(kFrameBytesMin) != 0)
+            const std::uint32_t count = content.count(kFrameBytesMin);
+            m_scene.has_frames = m_scene.has_frames || count > 1;
+            if (count != 0)
             {
                 node.placement = placementOf(content.dictionary()); // of the first frame
             }
@@ -313,7 +345,9 @@ private:
         else
         {
             constexpr std::uint32_t kModelBytesMin = 8;
-            if (content.count(kModelBytesMin) != 0)
+            const std::uint32_t count = content.count(kModelBytesMin);
+            m_scene.has_frames = m_scene.has_frames || count > 1;
+            if (count != 0)
             {
                 node.models.push_back(content.number()); // of the first frame
             }

@@ -11,6 +11,7 @@
 #include <map>
 #include <set>
 #include <span>
+#include <string>
 #include <vector>
 
 namespace zvo
@@ -83,6 +84,8 @@ struct VoxScene
 {
     std::array<std::uint32_t, kVoxPaletteSize> palette{}; // red in the lowest byte; of indices from 1 on
     std::array<float, kVoxPaletteSize> emission{};        // likewise; radiance, over the colour in linear light
+    std::array<std::string, kVoxPaletteSize> kinds{};     // likewise; of materials that are more than diffuse or emit
+    bool has_frames = false;                              // more than one, of nodes
     std::vector<VoxModel> models;
     std::map<std::int32_t, VoxNode> nodes; // empty in files without places
     std::set<std::int32_t> hidden_layers;

@@ -30,14 +30,14 @@ struct VoxVoxels
 };
 
 /// The voxels of all models that the scene graph shows. Models are placed in its order; where they overlap, the last
-/// one counts. Hidden nodes and layers are left out, and all frames of an animation but the first. Of materials only
-/// emission is read. Without a scene graph, only the first model is read. Throws Error{Input}: one line that begins
-/// with name.
+/// one counts. Hidden nodes and layers are left out; with a warning, all frames of an animation but the first. Of
+/// materials only emission is read; others of voxels are named in a warning. Without a scene graph, only the first
+/// model is read. Throws Error{Input}: one line that begins with name.
 VoxVoxels readVox(std::span<const std::uint8_t> bytes, const std::filesystem::path& name);
 
 /// Hands the bytes of a .vox file to write, piece by piece: a model for each block of 256^3 voxels that has any, in
-/// Morton order, and 255 colours for those of the voxels (io/voxel/quantize.h). Normals and emission are left out.
-/// Throws Error{Usage} for more voxels than 2 GiB hold.
+/// Morton order, and 255 colours for those of the voxels (io/voxel/quantize.h), of which up to 128, and at least 32,
+/// are those of lamps (io/voxel/lamps.h). Normals are left out. Throws Error{Usage} for more voxels than 2 GiB hold.
 void writeVox(const TreeData& tree, const WriteBytes& write);
 
 } // namespace zvo

@@ -9,6 +9,8 @@
 #include <bit>
 #include <cstdlib>
 #include <fmt/format.h>
+#include <set>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -139,6 +141,26 @@ private:
         return m_scene.emission[color_index] * glm::vec3(srgbToLinear(glm::dvec4(encoded, 1.0)));
     }
 
+    void addWarnings(const std::vector<std::pair<std::uint64_t, std::uint32_t>>& voxels)
+    {
+        std::set<std::string> kinds; // of materials of voxels
+        for (const auto& [code, color_index] : voxels)
+        {
+            kinds.insert(m_scene.kinds[color_index]);
+        }
+        kinds.erase("");
+        const auto warn = [&](const std::string& text)
+        { m_result.warnings.emplace_back(inputError(m_name, text).what()); };
+        if (!kinds.empty())
+        {
+            warn(fmt::format("materials of kind {} left out but for their colour", fmt::join(kinds, ", ")));
+        }
+        if (m_scene.has_frames)
+        {
+            warn("frames of an animation left out but for the first");
+        }
+    }
+
     VoxVoxels finish()
     {
         glm::ivec3 corner(0);
@@ -173,6 +195,7 @@ private:
                 m_result.emission.push_back(emissionOf(voxels[i].second));
             }
         }
+        addWarnings(voxels);
         if (std::ranges::all_of(m_result.emission,
                                 [](const glm::vec3& emission) { return emission == glm::vec3(0.0F); }))
         {

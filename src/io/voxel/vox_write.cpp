@@ -2,12 +2,15 @@
 #include "core/base/color_word.h"
 #include "core/base/morton.h"
 #include "io/voxel/colored_voxels.h"
+#include "io/voxel/lamps.h"
 #include "io/voxel/quantize.h"
 #include "io/voxel/vox_file.h"
 #include "io/voxel/write_bytes.h"
 #include "zvo/error.h"
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <fmt/format.h>
 #include <iterator>
 #include <string_view>
@@ -21,6 +24,8 @@ namespace
 
 constexpr std::uint32_t kBlockBits = 8; // models of 256^3
 constexpr std::uint32_t kPaletteSize = 255;
+constexpr std::int64_t kLampsMin = 32; // indices of the palette that lamps may take in any case
+constexpr std::int64_t kLampsMax = 128;
 constexpr std::uint32_t kVersion = 200;
 constexpr std::uint64_t kChunkHeaderBytes = 12;
 constexpr std::uint64_t kSizeMax = INT32_MAX;
@@ -114,19 +119,38 @@ Writer sceneGraph(const std::vector<Model>& models)
     return writer;
 }
 
-Writer paletteChunk(const Palette& palette)
+// The palette: colours of voxels, then those of lamps, which have materials.
+Writer paletteChunks(const Palette& palette, const std::vector<Lamp>& lamps)
 {
     Writer content;
     for (std::size_t i = 0; i <= kPaletteSize; ++i) // 256 are written; the last one has no index
     {
-        content.add(i < palette.colors.size() ? palette.colors[i] | kOpaque : std::uint32_t{0});
+        const std::size_t lamp = i - palette.colors.size();
+        content.add(i < palette.colors.size() ? palette.colors[i] | kOpaque
+                    : lamp < lamps.size()     ? lamps[lamp].color | kOpaque
+                                              : std::uint32_t{0});
     }
     Writer writer;
     writer.chunk("RGBA", content);
+    for (std::size_t i = 0; i < lamps.size(); ++i)
+    {
+        // As MagicaVoxel has it: a fraction, and steps of power, which are tenfold (readVoxScene).
+        const double power = std::max(std::ceil(std::log10(lamps[i].strength)), 0.0F);
+        Writer material;
+        material.number(static_cast<std::int64_t>(palette.colors.size() + i + 1));
+        material.number(3);
+        for (const std::string& word : {std::string("_type"), std::string("_emit"), std::string("_emit"),
+                                        fmt::format("{}", lamps[i].strength / std::pow(10.0, power)),
+                                        std::string("_flux"), fmt::format("{}", power)})
+        {
+            material.text(word);
+        }
+        writer.chunk("MATL", material);
+    }
     return writer;
 }
 
-// The models of a tree, and how often each colour occurs.
+// The models of a tree, and how often each colour of voxels without light occurs.
 struct Contents
 {
     std::vector<Model> models;
@@ -136,6 +160,7 @@ struct Contents
 Contents contentsOf(const TreeData& tree)
 {
     Contents contents;
+    std::uint64_t voxel = 0;
     std::uint64_t last_block = UINT64_MAX;
     forEachColoredVoxel(tree,
                         [&](std::uint64_t code, std::uint32_t color)
@@ -150,7 +175,7 @@ Contents contentsOf(const TreeData& tree)
                             ++model.voxel_count;
                             model.min = glm::min(model.min, position);
                             model.max = glm::max(model.max, position);
-                            ++contents.color_counts[color];
+                            contents.color_counts[color] += isEmissive(tree, voxel++) ? 0 : 1;
                         });
     return contents;
 }
@@ -172,9 +197,12 @@ void addModelHead(Writer& writer, const Model& model)
 void writeVox(const TreeData& tree, const WriteBytes& write)
 {
     const auto [models, color_counts] = contentsOf(tree);
-    const Palette palette = quantize(color_counts, kPaletteSize);
+    const auto used = std::count_if(color_counts.begin(), color_counts.end(), [](auto count) { return count != 0; });
+    const auto room = std::clamp<std::int64_t>(kPaletteSize - used, kLampsMin, kLampsMax);
+    const Lamps lamps = lampsOf(tree, static_cast<std::size_t>(room));
+    const Palette palette = quantize(color_counts, static_cast<std::uint32_t>(kPaletteSize - lamps.lamps.size()));
     const Writer graph = sceneGraph(models);
-    const Writer colors = paletteChunk(palette);
+    const Writer colors = paletteChunks(palette, lamps.lamps);
     constexpr std::uint64_t kModelBytes = kChunkHeaderBytes + 12 + kChunkHeaderBytes + 4; // SIZE, and the head of XYZI
     const std::uint64_t children_bytes = models.size() * kModelBytes + std::uint64_t{4} * tree.voxel_count +
                                          graph.bytes().size() + colors.bytes().size();
@@ -193,6 +221,8 @@ void writeVox(const TreeData& tree, const WriteBytes& write)
     writer.number(static_cast<std::int64_t>(children_bytes));
     auto next_model = models.begin();
     std::uint64_t rest = 0; // voxels of the current model
+    std::uint64_t voxel = 0;
+    auto next_lamp = lamps.of_voxel.begin();
     forEachColoredVoxel(tree,
                         [&](std::uint64_t code, std::uint32_t color)
                         {
@@ -203,10 +233,11 @@ void writeVox(const TreeData& tree, const WriteBytes& write)
                             }
                             --rest;
                             const glm::ivec3 position = turned(cellOfCode(code)) - std::prev(next_model)->min;
+                            const std::size_t index = isEmissive(tree, voxel++) ? palette.colors.size() + *next_lamp++
+                                                                                : palette.indices[color];
                             writer.add(std::array<std::uint8_t, 4>{
                                 static_cast<std::uint8_t>(position.x), static_cast<std::uint8_t>(position.y),
-                                static_cast<std::uint8_t>(position.z),
-                                static_cast<std::uint8_t>(palette.indices[color] + 1U)});
+                                static_cast<std::uint8_t>(position.z), static_cast<std::uint8_t>(index + 1)});
                             writer.passOn(write);
                         });
     write(writer.bytes());

@@ -3,6 +3,7 @@
 #include "io/voxel/glb_write.h"
 
 #include "core/base/morton.h"
+#include "core/tree/tree_build.h"
 #include "io/gltf/gltf_loader.h"
 #include "support/temp_dir.h"
 #include "support/tree_samples.h"
@@ -79,25 +80,36 @@ void expectFaces(const TreeData& tree, const std::string& name)
     const auto json_bytes = at<std::uint32_t>(file, 12);
     const nlohmann::json document = nlohmann::json::parse(file.substr(20, json_bytes));
     const std::size_t binary = 20 + json_bytes + 8;
-    const std::uint32_t index_count = document["accessors"][2]["count"];
+    const std::uint32_t index_count = document["bufferViews"][2]["byteLength"].get<std::uint32_t>() / 4;
     const std::size_t colors = binary + document["bufferViews"][1]["byteOffset"].get<std::size_t>();
     const std::size_t indices = binary + document["bufferViews"][2]["byteOffset"].get<std::size_t>();
+    std::vector<std::uint32_t> first_vertex; // [indices] of the accessor: those of one material after the other
+    std::uint32_t vertex_count = 0;
+    for (const nlohmann::json& primitive : document["meshes"][0]["primitives"])
+    {
+        const std::size_t count = document["accessors"][primitive["indices"].get<std::size_t>()]["count"];
+        first_vertex.insert(first_vertex.end(), count, vertex_count);
+        vertex_count +=
+            document["accessors"][primitive["attributes"]["POSITION"].get<std::size_t>()]["count"].get<std::uint32_t>();
+    }
+    const auto vertexOf = [&](std::uint32_t i)
+    { return first_vertex.at(i) + at<std::uint32_t>(file, indices + 4 * i); };
     std::map<Face, std::uint32_t> left = expectedFaces(tree);
     for (std::uint32_t i = 0; i < index_count; i += 6)
     {
         std::array<glm::vec3, 3> corner{};
         for (std::uint32_t k = 0; k < 3; ++k)
         {
-            corner[k] = at<glm::vec3>(file, binary + 12 * at<std::uint32_t>(file, indices + 4 * (i + k)));
+            corner[k] = at<glm::vec3>(file, binary + 12 * vertexOf(i + k));
         }
-        const auto opposite = at<glm::vec3>(file, binary + 12 * at<std::uint32_t>(file, indices + 4 * (i + 5)));
+        const auto opposite = at<glm::vec3>(file, binary + 12 * vertexOf(i + 5));
         const glm::vec3 normal = glm::cross(corner[1] - corner[0], corner[2] - corner[0]);
         const int axis = normal.x != 0 ? 0 : normal.y != 0 ? 1 : 2;
         const int direction = normal[axis] > 0 ? 1 : -1;
         const glm::vec3 low = glm::min(glm::min(corner[0], corner[1]), glm::min(corner[2], opposite));
         const glm::vec3 high = glm::max(glm::max(corner[0], corner[1]), glm::max(corner[2], opposite));
         ASSERT_EQ(low[axis], high[axis]);
-        const std::uint32_t vertex = at<std::uint32_t>(file, indices + 4 * i);
+        const std::uint32_t vertex = vertexOf(i);
         std::uint32_t color = 0;
         for (std::uint32_t channel = 0; channel < 3; ++channel)
         {
@@ -147,6 +159,38 @@ TEST(GlbWrite, AFullGridIsSixRectangles)
             EXPECT_EQ(document["accessors"][2]["count"], 36);
         }
     }
+}
+
+TEST(GlbWrite, LightIsThatOfMaterials)
+{
+    const std::vector<glm::vec3> emission = {{0, 0, 0}, {1, 0.5F, 0}, {1, 0.5F, 0}, {0, 0, 40}};
+    TreeData tree = octreeOfVoxels({glm::vec3(0.0F), 1.0F, 2}, std::vector<std::uint64_t>{0, 1, 8, 63});
+    addColors(tree, std::vector<std::uint32_t>{255, 255, 255, 0});
+    addEmission(tree, emission);
+    const TempDir dir;
+    const Scene scene = loadGltf(dir.write("lit.glb", writtenBytes(writeGlb, tree)));
+    EXPECT_TRUE(scene.warnings.empty());
+    ASSERT_EQ(scene.instances.size(), 3U);
+    const auto lightAt = [&](const glm::vec3& place)
+    {
+        for (const Primitive& primitive : scene.primitives)
+        {
+            for (const glm::uvec3& triangle : primitive.triangles)
+            {
+                if (primitive.positions[triangle.x] == place || primitive.positions[triangle.y] == place ||
+                    primitive.positions[triangle.z] == place)
+                {
+                    return scene.materials.at(primitive.material).emission;
+                }
+            }
+        }
+        return glm::vec3(-1.0F);
+    };
+    EXPECT_EQ(lightAt({0, 0, 0}), emission[0]);
+    EXPECT_LT(glm::distance(lightAt({3, 0, 0}), emission[1]), 0.05F) << "of two voxels";
+    EXPECT_LT(glm::distance(lightAt({4, 4, 4}), emission[3]), 0.1F);
+    const std::string dark = writtenBytes(writeGlb, treeSample("full_8"));
+    EXPECT_EQ(dark.find("emissive"), std::string::npos);
 }
 
 TEST(GlbWrite, TheLoaderFindsTheVoxelsInWorldSpace)
