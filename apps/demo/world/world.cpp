@@ -95,12 +95,13 @@ std::unique_ptr<World> World::make(vk::HeadlessDevice& device, const WorldOption
         {
             cli::addGround(*input.animated, bounds, grid);
         }
+        const cli::SceneCounts counts = cli::SceneCounts::of(input.animated->fixed, grid, options.voxels.coverage);
         world.reset(new World{name, subject,
                               LiveScene(device, std::move(*input.animated), grid, liveOptions(options), listener)});
         if (!world->scene.moves())
         {
             const StaticInfo& fixed = world->scene.info().fixed;
-            cli::warnOfDropped(fixed.voxel_count, fixed.dropped, {.triangles = fixed.triangle_count}, false);
+            cli::warnOfDropped(fixed.voxel_count, fixed.dropped, counts, options.voxels.load.strict);
         }
     }
     else if (!files.empty())

@@ -5,7 +5,6 @@
 #include "core/scene/scene.h"
 
 #include <array>
-#include <glm/glm.hpp>
 #include <optional>
 
 namespace zvo

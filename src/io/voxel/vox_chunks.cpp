@@ -22,7 +22,6 @@ namespace
 {
 
 constexpr std::uint32_t kModelEdgeMax = 256;
-constexpr float kMostEmission = 1e10F;
 
 using Dictionary = std::map<std::string_view, std::string_view>;
 
@@ -199,16 +198,11 @@ private:
         }
         else if (id == "TDCZ")
         {
-            fail("its voxels are a chunk TDCZ, the compressed format of Teardown, which is not read; save it by "
-                 "MagicaVoxel");
+            fail("its voxels are a chunk TDCZ, the compressed format of Teardown, which is not read");
         }
-        else if (id == "MATT")
+        else if (id == "MATT" || id == "MATL")
         {
-            readOldMaterial(content);
-        }
-        else if (id == "MATL")
-        {
-            readMaterial(content);
+            id == "MATT" ? readOldMaterial(content) : readMaterial(content);
         }
         else if (id == "LAYR")
         {
@@ -280,7 +274,8 @@ private:
         const std::int32_t index = content.number();
         const auto type = static_cast<std::uint32_t>(content.number());
         const float weight = std::bit_cast<float>(content.number());
-        setMaterial(index, type < kTypes.size() ? kTypes[type] : "_unknown", weight >= 0.0F ? weight : 1.0F);
+        setMaterial(index, type < kTypes.size() ? kTypes[type] : "_unknown",
+                    weight >= 0.0F ? std::min(weight, 1.0F) : 1.0F);
     }
 
     void setMaterial(std::int32_t index, std::string_view type, float emission)
@@ -290,8 +285,8 @@ private:
             return;
         }
         const auto place = static_cast<std::size_t>(index) - 1;
-        m_scene.emission[place] = type == "_emit" ? std::min(emission, kMostEmission) : 0.0F;
-        m_scene.kinds[place] = type == "_emit" || type == "_diffuse" || type.empty() ? "" : type.substr(1);
+        m_scene.emission[place] = type == "_emit" ? emission : 0.0F;
+        m_scene.kinds[place] = type == "_emit" || type == "_diffuse" ? "" : type.substr(type.starts_with('_') ? 1 : 0);
     }
 
     // Of materials only the light that they give off is read. The format says what `_emit` and `_flux` are called in
@@ -300,7 +295,6 @@ private:
     {
         const std::int32_t index = content.number();
         const Dictionary material = content.dictionary();
-        const auto type = material.find("_type");
         constexpr float kMost = 100.0F; // what is more is no emission that can be chosen
         constexpr float kMostPower = 8.0F;
         const auto value = [&](std::string_view key, float otherwise, float most)
@@ -310,7 +304,7 @@ private:
                 entry == material.end() ? std::nullopt : parseNumber<float>(entry->second);
             return said && *said >= 0.0F ? std::min(*said, most) : otherwise;
         };
-        const std::string kind(type == material.end() ? "" : type->second);
+        const std::string kind(material.contains("_type") ? material.at("_type") : "_diffuse");
         const bool is_rough = kind != "_emit" && kind != "_diffuse" && material.contains("_rough");
         setMaterial(index, is_rough ? kind + " with roughness" : kind,
                     value("_emit", value("_weight", 1.0F, kMost), kMost) *
@@ -328,9 +322,7 @@ private:
             content.number(); // reserved
             node.layer = content.number();
             constexpr std::uint32_t kFrameBytesMin = 4;
-            const std::uint32_t count = content.count(kFrameBytesMin);
-            m_scene.has_frames = m_scene.has_frames || count > 1;
-            if (count != 0)
+            if (hasFrame(content.count(kFrameBytesMin)))
             {
                 node.placement = placementOf(content.dictionary()); // of the first frame
             }
@@ -345,9 +337,7 @@ private:
         else
         {
             constexpr std::uint32_t kModelBytesMin = 8;
-            const std::uint32_t count = content.count(kModelBytesMin);
-            m_scene.has_frames = m_scene.has_frames || count > 1;
-            if (count != 0)
+            if (hasFrame(content.count(kModelBytesMin)))
             {
                 node.models.push_back(content.number()); // of the first frame
             }
@@ -356,6 +346,12 @@ private:
         {
             fail(fmt::format("two nodes have the number {}; {}", number, kExportAgain));
         }
+    }
+
+    bool hasFrame(std::uint32_t count)
+    {
+        m_scene.has_frames = m_scene.has_frames || count > 1;
+        return count != 0;
     }
 
     VoxPlacement placementOf(const Dictionary& frame) const

@@ -367,7 +367,7 @@ TEST(VoxFile, MaterialsOfVoxelsThatAreNotReadAreNamed)
     const auto warningsOf = [](const std::string& chunks)
     { return read(voxFile(model(2, 1, 1, std::string("\0\0\0\1\1\0\0\2", 8)) + chunks)).warnings; };
     EXPECT_TRUE(warningsOf(material(1, {{"_type", "_diffuse"}, {"_rough", "0.1"}}) +
-                           material(9, {{"_type", "_metal"}}) + material(2, {{"_emit", "0.3"}}))
+                           material(9, {{"_type", "_metal"}}) + material(2, {{"_emit", "0.3"}, {"_rough", "0.1"}}))
                     .empty())
         << "what no voxel has, and what says nothing";
     EXPECT_EQ(warningsOf(material(1, {{"_type", "_metal"}, {"_rough", "0.1"}}) + material(2, {{"_type", "_glass"}})),
