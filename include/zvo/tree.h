@@ -25,7 +25,7 @@ struct TreeInfo
     GridInfo grid;
     std::uint64_t voxel_count = 0;
     std::uint64_t node_count = 0; // stored nodes
-    std::uint64_t bytes = 0;      // of device memory: nodes, lists, attributes, emission, kept sums
+    std::uint64_t bytes = 0;      // of device memory: nodes, leaf groups, lists, attributes, emission, kept sums
     float emission_scale = 0;     // 0: nothing emits light
 };
 

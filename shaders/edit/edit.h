@@ -89,7 +89,7 @@ struct EditCell
 {
     uint base;    // reference of the node of the base tree, or kNoEditNode
     uint voxels;  // rank of the static octree's node at the same position; of a leaf, what its bases lack
-    uint rank;    // rank of that node among the nodes; of an octree, base
+    uint rank;    // rank of that node among the nodes; of an octree, the index of its attributes
     uint mask_lo; // after the dab
     uint mask_hi;
     uint changed; // 0 or 1
@@ -140,7 +140,7 @@ GPU_KERNEL(edit, begin, Begin, EditBeginParams, EDIT_BEGIN_CONSTANTS)
 struct EditFindParams // push constants of edit/find: one thread a cell
 {
     GPU_CONST_PTR(Node) nodes;
-    GPU_CONST_PTR(BeforeChild) before; // this and the next as in RankSource; kRanks only
+    GPU_CONST_PTR(BeforeChild) before; // this and the next as in RankSource
     GPU_CONST_PTR(uint) voxels_before_leaf;
     GPU_CONST_PTR(BeforeChild) ranks;
     GPU_PTR(EditCell) cells;
@@ -179,7 +179,7 @@ struct EditNodesParams // push constants of edit/nodes: a workgroup for each cel
 {
     GPU_PTR(Node) nodes;
     GPU_PTR(Attribute) node_attributes; // or null
-    GPU_CONST_PTR(BeforeChild) before;  // this and the next as in RankSource; kRanks only
+    GPU_CONST_PTR(BeforeChild) before;  // this and the next as in RankSource
     GPU_CONST_PTR(uint) voxels_before_leaf;
     GPU_PTR(BeforeChild) ranks;
     GPU_PTR(EditCell) cells;

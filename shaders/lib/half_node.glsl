@@ -3,7 +3,8 @@
 // them. main() sets g_halves and, where indices of voxels are wanted, g_leaf_groups in both forms of a kernel: read
 // from the push constants inside of a traversal's loop, the address would be loaded again in every iteration.
 // NODES_BINDING (optional): the binding of params.nodes in the kernel's bound form (lib/bound.glsl).
-// GROUPS_BINDING (optional, with the one before): that of params.leaf_groups. The next one is of params.nodes again.
+// GROUPS_BINDING (optional, with the one before): that of params.leaf_groups; GROUPS_BINDING + 1 is that of params.nodes
+// in texels of four words.
 #ifndef ZVO_SHADERS_LIB_HALF_NODE_GLSL
 #define ZVO_SHADERS_LIB_HALF_NODE_GLSL
 

@@ -62,8 +62,8 @@ uint firstVoxel(Node_ConstPtr pool, uvec2_ConstPtr leaf_groups, uint reference)
     return voxels + ((word & 1u) != 0u ? bitCount(mask.x) + bitCount(mask.y) : 0u);
 }
 
-// A node, whose bases are those of a leaf that is a node, in place of a leaf word: of a DAG, that is of its own.
-// leaf_groups: of an octree, or null: bases are those in a DAG then.
+// A node by its reference. For a leaf word, the leaf that it stands for, as a node. leaf_groups: of an octree, or null:
+// bases of a leaf count from 0 then, as in a DAG.
 Node loadNodeOf(Node_ConstPtr pool, uvec2_ConstPtr leaf_groups, uint reference)
 {
     if (!isLeafWord(reference))
@@ -75,16 +75,19 @@ Node loadNodeOf(Node_ConstPtr pool, uvec2_ConstPtr leaf_groups, uint reference)
     return Node(mask.x, first, mask.y, first + bitCount(mask.x));
 }
 
+// The index of a node's attributes in an octree with leaf words. first: element 0 of the leaf groups.
+uint nodeIndexBy(uvec2 first, uint reference)
+{
+    uint behind = reference >= first.x ? reference + first.y : reference;
+    return isLeafWord(reference) ? leafWord(reference) - first.x : behind;
+}
+
 // The index of a node's attributes in an octree. leaf_groups: null if leaves are nodes, which have their numbers.
 uint nodeIndexOf(uvec2_ConstPtr leaf_groups, uint reference)
 {
     uint index = reference;
     if (uint64_t(leaf_groups) != 0ul)
-    {
-        uvec2 first = leaf_groups.data[0];
-        index = isLeafWord(reference) ? leafWord(reference) - first.x
-                                      : (reference >= first.x ? reference + first.y : reference);
-    }
+        index = nodeIndexBy(leaf_groups.data[0], reference);
     return index;
 }
 

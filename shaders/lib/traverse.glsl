@@ -15,8 +15,8 @@
 // state is the current node, its lower corner and the last event, kept as limits: a plane of axis i was crossed iff its
 // t < limit_i, where limit_i is the float after the event's t for axes up to the event's and the event's t after that.
 // Which cell of the node the ray is in follows from that anew in every iteration, whether it came by a descent, an
-// advance or a pop. One uniform loop with its only test in the header; each iteration loads half a node and descends
-// into the cell, or advances past it (past its 2x2x2 octant, or the half node, if that is empty) to the lowest node
+// advance or a pop. One uniform loop with its only test in the header; each iteration loads half a node, or a leaf
+// word, and descends into the cell, or advances past it (past its 2x2x2 octant, or the half node, if that is empty) to the lowest node
 // around both cells.
 //
 // Rays start in the node at g_halves; indices of hits in an octree need g_leaf_groups (lib/half_node.glsl). Needs what
@@ -158,10 +158,7 @@ uint nodeIndex(uint node)
 {
     uint index = node;
     if (kEntriesPerWord == 0u && uint64_t(g_leaf_groups) != 0ul)
-    {
-        uvec2 first = loadLeafGroup(0u);
-        index = isLeafWord(node) ? leafWord(node) - first.x : node >= first.x ? node + first.y : node;
-    }
+        index = nodeIndexBy(loadLeafGroup(0u), node);
     return index;
 }
 

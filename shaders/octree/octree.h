@@ -116,7 +116,7 @@ struct AverageParams // push constants of octree/average
     uint first_node;
     uint node_count;
     uint reference;       // from the number of a node to its reference
-    uint child_reference; // from that of a child
+    uint child_reference; // from the number of a child to its reference
 };
 #define OCTREE_AVERAGE_CONSTANTS(CONSTANT) CONSTANT(0, uint, lanes, kLanes, 1u)
 GPU_KERNEL(octree, average, Average, AverageParams, OCTREE_AVERAGE_CONSTANTS)
@@ -129,7 +129,7 @@ struct LeafWordsParams // push constants of octree/leaf_words: a thread a node
     uint inner_count;
     uint leaf_count;
     uint first_parent;     // of leaves
-    uint attribute_offset; // x of the first leaf group says which
+    uint attribute_offset; // from the number of a node behind the pool to the index of its attributes, modulo 2^32
 };
 GPU_KERNEL(octree, leaf_words, LeafWords, LeafWordsParams, GPU_NO_CONSTANTS)
 

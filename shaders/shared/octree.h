@@ -14,7 +14,7 @@
 // Nodes stand breadth first, each level in Morton order; node 0 is the root. With L = nodeLevels(depth) levels the
 // root covers 4^L voxels per edge: for an odd depth the grid is the lower octant of that cube.
 //
-// The leaves of a tree that is made, and has several levels, are *leaf words*: their masks alone. They stand behind the
+// The leaves of a finished tree of several levels are *leaf words*: their masks alone. They stand behind the
 // inner nodes, two in the room of a node. Bases with the flag kLeafWords count words of 64 bits, from node 0 on:
 //
 //     byte 0        4        8
@@ -25,9 +25,13 @@
 // What such a sum gives is the *reference* of a child: the number of a node, or kLeafWords | the number of a word. The
 // i-th leaf of a tree with n inner nodes is node n + i and word 2 n + i. Leaf groups tell its first voxel:
 //
-//     element 0                      x: n; y: from the number of a node behind the leaf words to that of its attributes
-//     1 + g, of words 8 g to 8 g + 7 x: voxels before those words; y: voxels from there to word 8 g + 2: 8 bits | 4: 9
-//                                    | 6: 9, where words of inner nodes have none
+//     element 0      x: n
+//                    y: from the number of a node behind the pool to the index of its attributes, modulo 2^32
+//     element 1 + g  x: voxels before word 8 g
+//                    y: voxels from there to word 8 g + 2: 8 bits | 8 g + 4: 9 | 8 g + 6: 9 | unused 6, the lowest
+//                    first
+//
+// Words of inner nodes hold no voxels.
 #ifndef ZVO_SHADERS_SHARED_OCTREE_H
 #define ZVO_SHADERS_SHARED_OCTREE_H
 

@@ -10,7 +10,7 @@ GPU_NAMESPACE_BEGIN
 const uint kPathsGroup = 64u; // threads of a workgroup of these kernels
 
 // Where rays may begin. The root cube is divided into kPathCells^3 cells, x in the lowest bits of their number. Each
-// holds the nodes of levels 1 to 3 that contain it, 0 where there is none:
+// holds the references of the nodes of levels 1 to 3 that contain it, 0 where there is none:
 //
 //     level 1: 8 bits | level 2: 16 | level 2 is relative: 1 | unused 7 | level 3: 32, from the lowest bit on
 //

@@ -23,7 +23,7 @@ uvec2 childKey(uvec2 key, uint cell)
 }
 
 // The child of a touched node's base node, which must exist, in a cell. rank: of the base octree's node, where
-// attributes need it; in an octree, its number.
+// attributes need it; in an octree, the index of its attributes.
 RankedNode baseChild(TouchedNode parent, uint cell, bool are_leaves)
 {
     RankSource source = RankSource(Node_ConstPtr(uint64_t(params.nodes)), params.before, params.voxels_before_leaf,

@@ -201,14 +201,14 @@ struct TopParams // push constants of update/top: one workgroup
     GPU_PTR(Attribute) node_attributes; // or null
     GPU_PTR(uint) counts;               // [node_capacity] children that the overlay has to hold for its nodes
     GPU_PTR(OverlayState) state;
-    GPU_CONST_PTR(BeforeChild) before; // this and the next as in RankSource; kRanks only
+    GPU_CONST_PTR(BeforeChild) before; // this and the next as in RankSource
     GPU_CONST_PTR(uint) voxels_before_leaf;
     GPU_PTR(BeforeChild) ranks; // by nodes of overlays; kRanks only
     uint brick_mask;
     uint base_root;  // node index; the node may be empty, and stands like a node of an overlay
     uint first_node; // of the overlay's region
     uint first_voxel;
-    uint attribute_offset;  // 0 for an octree
+    uint attribute_offset;  // modulo 2^32
     uint first_short_entry; // as in RankSource
     uint static_root;
 };
@@ -230,14 +230,14 @@ struct ExpandParams // push constants of update/expand: a workgroup for each tou
     GPU_PTR(uint) counts;               // [node_capacity] children that the overlay has to hold for its nodes
     GPU_PTR(uint) partials;             // [levels * ceil(node_capacity / kScanBlock)] cleared: sums of those
     GPU_PTR(OverlayState) state;
-    GPU_CONST_PTR(BeforeChild) before; // this and the next as in RankSource; kRanks only
+    GPU_CONST_PTR(BeforeChild) before; // this and the next as in RankSource
     GPU_CONST_PTR(uint) voxels_before_leaf;
     GPU_PTR(BeforeChild) ranks; // by nodes of overlays; kRanks only
     uint brick_mask;
     uint level;             // of the children
     uint first_node;        // of the overlay
     uint first_partial;     // of the level
-    uint attribute_offset;  // 0 for an octree
+    uint attribute_offset;  // modulo 2^32
     uint first_short_entry; // as in RankSource
     uint static_root;
 };

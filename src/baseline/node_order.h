@@ -24,9 +24,9 @@ enum class NodeOrder
 /// Programming the Hilbert Curve, 2004).
 std::uint64_t hilbertCode(const glm::uvec3& cell, std::uint32_t depth);
 
-/// The same octree in another order: the same voxels with the same attributes. tree: an octree as zvo builds it,
-/// without attributes of inner nodes, which have the order of nodes. Throws Error{Usage} for others. Cost: nodes
-/// log(nodes).
+/// The same octree in another order. On a device its voxels are numbered in the order of the leaves, so hits have other
+/// indices. tree: an octree as zvo builds it, without attributes of inner nodes, which have the order of nodes. Throws
+/// Error{Usage} for others. Cost: nodes log(nodes).
 TreeData inOrder(TreeData tree, NodeOrder order);
 
 } // namespace zvo::baseline

@@ -57,14 +57,14 @@ struct JoinedLayout
     std::vector<DeviceTree::Level> levels;
     ListPacking packing;
 
-    // The room of a whole node, at which the lists above the tiles begin: behind a word of zeros, if need be.
+    // The room of a whole node, at which the lists above the tiles begin: behind an unused word, if need be.
     [[nodiscard]] std::uint64_t firstListNode() const
     {
         return divideUp(packing.node_words, ListPacking::kWordsOfNode);
     }
 };
 
-// top: the octree of the tiles. Throws Error{Memory} if 31-bit numbers do not suffice.
+// top: the octree of the tiles. Throws Error{Memory} if 30-bit numbers do not suffice.
 JoinedLayout layoutOf(std::span<const DeviceTree* const> dags, const TreeData& top)
 {
     const std::size_t level_count = dags.front()->levels.size();
@@ -94,9 +94,9 @@ JoinedLayout layoutOf(std::span<const DeviceTree* const> dags, const TreeData& t
         entry_end += dags[i]->lists.entry_count;
     }
     layout.packing.entry_count = entry_end - layout.packing.firstEntry();
-    if (!layout.packing.fits())
+    if (!layout.packing.fits(gpu::kLeafWords))
     {
-        throw Error(ErrorCode::Memory, "the tiles' nodes and lists take more words than 31-bit numbers count; lower "
+        throw Error(ErrorCode::Memory, "the tiles' nodes and lists take more words than 30-bit numbers count; lower "
                                        "the resolution");
     }
     return layout;

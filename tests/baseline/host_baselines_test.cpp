@@ -149,7 +149,12 @@ std::vector<gpu::Hit> hitsOf(const DeviceTree& tree, const ViewCamera& view)
     const TraceCamera camera = traceCamera(view, tree.grid, 64);
     baselineDevice().run([&](vk::FrameGraph& graph)
                          { tracePrimary(graph, tree, paths, camera, {.beam = false}, buffers); });
-    return baselineDevice().download(buffers.hits);
+    std::vector<gpu::Hit> hits = baselineDevice().download(buffers.hits);
+    for (gpu::Hit& hit : hits)
+    {
+        hit.index = hit.index == gpu::kHitMiss ? gpu::kHitMiss : 0; // numbers of voxels follow the order of leaves
+    }
+    return hits;
 }
 
 TEST(NodeOrders, HaveTheSameHits)

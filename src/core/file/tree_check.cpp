@@ -127,7 +127,7 @@ void requireDagLeaves(const TreeData& tree)
 
 void requireDagNodes(const TreeData& tree)
 {
-    requireSound(tree.packing().fits(), "{} nodes and {} entries of lists are more than a DAG can have",
+    requireSound(tree.packing().fits(gpu::kChildList), "{} nodes and {} entries of lists are more than a DAG can have",
                  tree.nodes.size(), tree.lists.size());
     std::uint64_t next_entry = 0;
     std::uint64_t long_entry_count = 0;

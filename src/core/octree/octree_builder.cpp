@@ -325,10 +325,6 @@ std::uint32_t OctreeBuilder::addLevels(std::uint32_t count)
 void OctreeBuilder::number(vk::FrameGraph& graph)
 {
     numberNodes(graph, m_coverings->voxelize.bricks, m_coverings->work, m_result.octree, m_result.octree.levels.size());
-    if (!m_options.attributes)
-    {
-        addLeafWords(graph);
-    }
 }
 
 void OctreeBuilder::endNumbers()
@@ -340,7 +336,8 @@ void OctreeBuilder::endNumbers()
     m_coverings->work.partials = {};
     if (!m_options.attributes)
     {
-        end();
+        m_coverings.reset();
+        m_step = {&OctreeBuilder::addLeafWords, &OctreeBuilder::end};
         return;
     }
     m_step = {&OctreeBuilder::attributes, &OctreeBuilder::learnAttributes};

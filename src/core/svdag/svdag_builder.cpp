@@ -81,7 +81,7 @@ void allocatePool(vk::Device& device, const Candidates& candidates, const gpu::C
     ListPacking packing = ListPacking::tightest(dag.nodeWords(), dag.nodeWords(), sizes.entry_count);
     packing.per_word = std::min(packing.per_word, per_word_max);
     dag.lists.entries_per_word = packing.per_word;
-    if (!packing.fits())
+    if (!packing.fits(gpu::kLeafWords))
     {
         throwTooBig(packing);
     }

@@ -24,7 +24,7 @@ struct Candidates
     [[nodiscard]] std::uint32_t count() const { return tree.node_count; }
     [[nodiscard]] std::uint32_t innerCount() const { return tree.levels.back().first_node; }
 
-    /// From the number of a node of a level, or of its children, to the reference (shaders/shared/octree.h).
+    /// From the number of a node of a level to its reference (shaders/shared/octree.h).
     [[nodiscard]] std::uint32_t reference(std::size_t level) const
     {
         return level + 1 == tree.levels.size() ? tree.leafReference() : 0;

@@ -100,7 +100,7 @@ void tracePrimary(vk::FrameGraph& graph, const DeviceTree& tree, const NodePaths
     const auto declare = [&](vk::AnyPass& pass)
     {
         auto params = common(pass, gpu::PrimaryParams{});
-        params.leaf_groups = readLeafGroups(pass, tree);
+        params.leaf_groups = pass.read(tree.leaf_groups);
         params.iterations = count_iterations ? pass.readWrite(buffers.light) : gpu::Ptr<gpu::uint>{};
         params.detail = detailOf(options, &camera);
         return params;
@@ -143,7 +143,7 @@ void traceRays(vk::FrameGraph& graph, const DeviceTree& tree, const vk::BufferOf
     {
         gpu::RaysParams params{};
         params.nodes = pass.read(tree.nodes);
-        params.leaf_groups = readLeafGroups(pass, tree);
+        params.leaf_groups = pass.read(tree.leaf_groups);
         params.rays = pass.read(rays);
         params.hits = pass.readWrite(hits);
         params.status = pass.readWrite(status);

@@ -19,7 +19,7 @@ void inspectPixels(vk::FrameGraph& graph, const DeviceTree& tree, const TraceCam
         traversing(gpu::trace::Inspect{.orthographic = camera.orthographic, .format = format}, tree, options));
     gpu::InspectParams params{};
     params.nodes = pass.read(tree.nodes);
-    params.leaf_groups = readLeafGroups(pass, tree);
+    params.leaf_groups = pass.read(tree.leaf_groups);
     params.hits = pass.read(buffers.hits);
     readAttributes(pass, tree, params);
     params.pixels = pass.read(pixels);

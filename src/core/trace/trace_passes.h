@@ -49,13 +49,6 @@ template <typename Params> void readAttributes(vk::AnyPass& pass, const DeviceTr
     params.node_attributes = pass.read(tree.node_attributes);
 }
 
-/// Declares that pass reads what indices of hits in an octree come from, and returns the address. In a DAG they do not
-/// come from there, but bound forms need some buffer.
-inline gpu::ConstPtr<gpu::uvec2> readLeafGroups(vk::AnyPass& pass, const DeviceTree& tree)
-{
-    return tree.isDag() ? gpu::ConstPtr<gpu::uvec2>{pass.read(tree.nodes).address} : pass.read(tree.leaf_groups);
-}
-
 /// Sets the constants of a kernel that includes lib/traverse.glsl for a tree and options.
 template <typename Kernel> Kernel traversing(Kernel kernel, const DeviceTree& tree, const TraceOptions& options)
 {

@@ -83,7 +83,7 @@ struct DeviceTree
     /// As many elements as nodes, leaf words and lists take. With room for overlays: a slot for the root that is
     /// traced, the other static nodes and the lists, the static root, then overlays.
     vk::BufferOf<gpu::Node> nodes;
-    vk::BufferOf<gpu::uvec2> leaf_groups;          // [leafGroupCount()] of an octree with leaf words
+    vk::BufferOf<gpu::uvec2> leaf_groups;          // [1 + ceil(nodeWords() / kLeafGroup)] of an octree with leaf words
     vk::BufferOf<gpu::Attribute> voxel_attributes; // [voxel_count] in Morton order, then those of overlays; or empty
     /// [octreeNodeCount()] averages of the attributes below each node, or empty. Those of a DAG stand depth first: a
     /// node before its children, children in Morton order. With room for overlays: that of the slot, those of the other
@@ -109,11 +109,13 @@ struct DeviceTree
     [[nodiscard]] bool hasAttributes() const { return attributeFormat() != AttributeFormat::None; }
     [[nodiscard]] bool hasNodeAttributes() const { return node_attributes.count() + packed.nodes.count() != 0; }
 
-    /// The number of the first leaf that is a leaf word; the words of 64 bits before the lists; the elements of
-    /// leaf_groups; what, added to the number of a leaf, gives its reference (shaders/shared/octree.h).
+    /// Nodes that are no leaf words.
     [[nodiscard]] std::uint32_t innerCount() const { return node_count - leaf_words; }
+
+    /// Words of 64 bits of nodes and leaf words, which the lists stand behind.
     [[nodiscard]] std::uint64_t nodeWords() const { return std::uint64_t{2} * node_count - leaf_words; }
-    [[nodiscard]] std::uint64_t leafGroupCount() const { return 1 + divideUp(nodeWords(), gpu::kLeafGroup); }
+
+    /// What, added to the number of a leaf, gives its reference (shaders/shared/octree.h).
     [[nodiscard]] std::uint32_t leafReference() const { return leaf_words != 0 ? gpu::kLeafWords + innerCount() : 0; }
 
     /// How the lists of a DAG are packed.

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cassert>
 
 namespace zvo
 {
@@ -52,6 +53,7 @@ struct Shifts
 void shiftTree(std::span<const DeviceTree::Level> levels, std::uint64_t long_entry_count, const Shifts& shifts,
                std::span<gpu::Node> nodes, std::span<gpu::uint> lists)
 {
+    assert(!levels.empty());
     const std::size_t leaf_level = levels.size() - 1;
     for (std::size_t level = 0; level < leaf_level; ++level)
     {

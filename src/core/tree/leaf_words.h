@@ -28,11 +28,10 @@ inline std::uint32_t leafWordsOf(std::span<const DeviceTree::Level> levels)
     return levels.size() > 1 ? levels.back().node_count : 0;
 }
 
-/// How an octree's pool is numbered, of which the leaf groups tell: the number of inner nodes, and what leads from the
-/// number of a node behind the pool to the index of its attributes, modulo 2^32.
+/// Element 0 of the leaf groups of an octree (shaders/shared/octree.h).
 gpu::uvec2 firstLeafGroup(std::uint64_t inner_count, std::uint64_t leaf_count);
 
-/// The pool of a tree that checkTree accepts.
+/// The pool of a tree that checkTree accepts: voxels are numbered in the order of the leaves.
 TreePool poolOf(const TreeData& tree);
 
 /// Appends leaves to the inner nodes of a tree. masks: of the leaves in their order.

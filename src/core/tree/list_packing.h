@@ -31,8 +31,9 @@ struct ListPacking
     [[nodiscard]] std::uint64_t bytes() const { return wordCount() * sizeof(std::uint64_t); }
     [[nodiscard]] std::uint64_t poolNodes() const { return divideUp(node_words + wordCount(), kWordsOfNode); }
 
-    /// Whether the base of a node can hold the index of every entry.
-    [[nodiscard]] bool fits() const { return firstEntry() + wordCount() * per_word < gpu::kLeafWords; }
+    /// Whether the base of a node can hold the index of every entry beside its flags, of which `flag` is the lowest:
+    /// kLeafWords in device memory, kChildList in files.
+    [[nodiscard]] bool fits(gpu::uint flag) const { return firstEntry() + wordCount() * per_word < flag; }
 
     static constexpr std::uint64_t kWordsOfNode = sizeof(gpu::Node) / sizeof(std::uint64_t);
 };

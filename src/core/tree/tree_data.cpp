@@ -58,7 +58,7 @@ std::uint64_t TreeData::attributeBytes() const
 
 DeviceTree uploadTree(vk::Uploader& device, const TreeData& tree)
 {
-    requireIndexable(tree.packing().poolNodes(),
+    requireIndexable(divideUp(tree.geometryBytes(), sizeof(gpu::Node)),
                      tree.hasAttributes() ? std::max(tree.voxel_count, tree.octree_node_count) : 0);
     device.device().memory().require(tree.geometryBytes() + tree.attributeBytes(), "the tree");
     TreePool pool = poolOf(tree);

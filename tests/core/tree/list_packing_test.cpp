@@ -57,10 +57,10 @@ TEST(SvdagLists, UnpackedAreWhatWasPacked)
 TEST(SvdagLists, EntriesFitIntoTheBaseOfANode)
 {
     const std::uint64_t most = (std::uint64_t{1} << 30) - 8; // positions of words and entries
-    EXPECT_TRUE((ListPacking{2000, most - 4000, 2}.fits()));
-    EXPECT_FALSE((ListPacking{2000, most - 4000 + 8, 2}.fits()));
-    EXPECT_TRUE((ListPacking{most / 2, 0, 2}.fits()));
-    EXPECT_FALSE((ListPacking{most / 2 + 4, 0, 2}.fits()));
+    EXPECT_TRUE((ListPacking{2000, most - 4000, 2}.fits(gpu::kLeafWords)));
+    EXPECT_FALSE((ListPacking{2000, most - 4000 + 8, 2}.fits(gpu::kLeafWords)));
+    EXPECT_TRUE((ListPacking{most / 2, 0, 2}.fits(gpu::kLeafWords)));
+    EXPECT_FALSE((ListPacking{most / 2 + 4, 0, 2}.fits(gpu::kLeafWords)));
 }
 
 } // namespace
