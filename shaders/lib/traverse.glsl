@@ -16,8 +16,8 @@
 // t < limit_i, where limit_i is the float after the event's t for axes up to the event's and the event's t after that.
 // Which cell of the node the ray is in follows from that anew in every iteration, whether it came by a descent, an
 // advance or a pop. One uniform loop with its only test in the header; each iteration loads half a node, or a leaf
-// word, and descends into the cell, or advances past it (past its 2x2x2 octant, or the half node, if that is empty) to the lowest node
-// around both cells.
+// word, and descends into the cell, or advances past it (past its 2x2x2 octant, or the half node, if that is empty) to
+// the lowest node around both cells.
 //
 // Rays start in the node at g_halves; indices of hits in an octree need g_leaf_groups (lib/half_node.glsl). Needs what
 // TRAVERSE_CONSTANTS (trace/trace.h) declares:
@@ -30,6 +30,7 @@
 //                              four levels (trace/traverse_paths.glsl, which declares the next two)
 //   TRAVERSE_PATHS_RELATIVE    a constant, false where the root's first child is node 1
 //   uvec2 loadPath(uint cell)  the nodes that contain a cell, as trace/node_paths.h describes it
+//   TRAVERSE_WITHOUT_INDICES   hits have no index, and g_leaf_groups need not be set
 //   TRAVERSE_ENTRIES           hits in a DAG come with the index of the entry that named their leaf
 //   TRAVERSE_VARIABLES         kNodeLevels and kEntriesPerWord are variables, set before each ray
 //   TRAVERSE_LEVELS            a constant, at least kNodeLevels, for registers; must be defined if that is a variable
@@ -294,9 +295,11 @@ Traversal traverse(vec3 ray_origin, vec3 ray_inverse, float t_min, float t_max, 
     result.level = (kRootShift - shift) >> 1;
     result.cell = ((corner - one) >> (shift + 2u)) ^ mix(uvec3(0u), uvec3((1u << (2u * result.level)) - 1u), mirrored);
     result.index = 0u;
+#ifndef TRAVERSE_WITHOUT_INDICES
     if (result.hit)
         result.index =
             kDetail && result.level != kNodeLevels ? nodeIndex(node) : voxelIndex(node, cellInBlock(result.cell));
+#endif
 #ifdef TRAVERSE_ENTRIES
     result.leaf_entry = leaf_entry;
 #endif

@@ -10,6 +10,7 @@ GPU_ENTRY(OcclusionParams, TRACE_OCCLUSION_CONSTANTS);
 layout(local_size_x = kTilePixels) in;
 
 #define NODES_BINDING 0
+#define TRAVERSE_WITHOUT_INDICES
 #include "lib/bound.glsl"
 #include "lib/camera.glsl"
 #include "lib/dispatch.glsl"

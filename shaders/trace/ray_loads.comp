@@ -37,6 +37,7 @@ uint noteEntry(uint index, uint per_word)
 // From here on, the traversal's loads are noted.
 #define loadHalf noteHalf
 #define loadEntry noteEntry
+#define TRAVERSE_WITHOUT_INDICES
 #include "lib/traverse.glsl"
 
 void main()

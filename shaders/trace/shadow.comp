@@ -9,6 +9,7 @@ GPU_ENTRY(ShadowParams, TRACE_SHADOW_CONSTANTS);
 layout(local_size_x = kTilePixels) in;
 
 #define NODES_BINDING 0
+#define TRAVERSE_WITHOUT_INDICES
 #include "lib/bound.glsl"
 #include "lib/camera.glsl"
 #include "lib/dispatch.glsl"
