@@ -102,7 +102,6 @@ public:
         case Tunable::BrickVoxels:
             return sumMs(build());
         case Tunable::PathForm:
-        case Tunable::PathThreads:
             return sumMs(paths());
         case Tunable::SubgroupSize:
         case Tunable::Loads:
@@ -192,8 +191,6 @@ bool canHave(const vk::Device& device, Tunable tunable, std::uint32_t value)
     case Tunable::BrickThreads:
     case Tunable::BrickVoxels: // of nothing that is measured, unless voxelization goes by bricks
         return tunedValue(device, Tunable::VoxelForm) != 0 || value == tunedValue(device, tunable);
-    case Tunable::PathThreads: // of nothing that is measured where paths go in stages
-        return tunedValue(device, Tunable::PathForm) != 0 || value == tunedValue(device, tunable);
     case Tunable::RowColumns:
     case Tunable::MixedSums:
     case Tunable::VoxelForm:

@@ -26,8 +26,8 @@
 //
 // So each kernel runs for those paths alone that need it, and what it loads is loaded for those alone.
 //
-// In one kernel, path/trace, for GPUs: a thread follows a path from the camera to its end, then another one. Nothing is
-// stored between bounces.
+// In one kernel, path/trace, for GPUs: a thread follows a path from the camera to its end. Nothing is stored between
+// bounces.
 //
 // With PathOptions::smooth, paths leave what the camera sees by the normals of voxels (path/normal.glsl). Between
 // surfaces light goes from face to face all the same, so there is as much of it as without.
@@ -45,7 +45,7 @@ GPU_ENUM(LightSampling) // kSampleBoth and so on
 
 GPU_NAMESPACE_BEGIN
 
-const uint kPathGroup = 64u; // threads of a workgroup; in stages, each takes one path
+const uint kPathGroup = 64u; // threads of a workgroup
 const uint kStripRows = 8u;
 
 // How light is found: a specialization constant of path/shade.
@@ -245,7 +245,7 @@ struct PathFinishParams // push constants of path/finish: a thread a pixel
 #define PATH_FINISH_CONSTANTS(CONSTANT) CONSTANT(0, bool, features, kFeatures, false)
 GPU_KERNEL(path, finish, Finish, PathFinishParams, PATH_FINISH_CONSTANTS)
 
-struct PathTraceParams // push constants of path/trace: workgroups take tiles of kPathGroup pixels in turns
+struct PathTraceParams // push constants of path/trace: a thread a pixel
 {
     GPU_CONST_PTR(TreeTable) tree;
     GPU_CONST_PTR(Node) nodes;
@@ -261,10 +261,9 @@ struct PathTraceParams // push constants of path/trace: workgroups take tiles of
     GPU_PTR(DispatchArgs) lists;     // [kListElements] whose lengths count the rays of paths and those to lights
     GPU_PTR(TraceStatus) status;
     uint first_pixel; // numbers in the order of strips
-    uint end_pixel;
+    uint pixel_count;
     uint sample_index;
     uint bounces;
-    uint workgroups;
 };
 #define PATH_TRACE_CONSTANTS(CONSTANT)                                                                                 \
     TRAVERSE_CONSTANTS(CONSTANT)                                                                                       \

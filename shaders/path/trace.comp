@@ -1,15 +1,12 @@
 #version 460
 // SPDX-License-Identifier: MIT
-// Follows each path of a batch from the camera to its end: the other form of path tracing (path.h).
-//
-// A thread takes one path after the other: where a path ends, its thread takes the next pixel of the workgroup that no
-// thread has (regeneration: J. Novak, V. Havran, C. Dachsbacher, Path Regeneration for Interactive Path Tracing, 2010).
-// So threads that run together stay busy as long as the workgroup has pixels, no workgroup knows of another, and none
-// waits. Workgroups take tiles in turns, so that each has a part of the sky, where paths are short, and of whatever
-// makes them long.
+// Follows each path of a batch from the camera to its end, a thread a path: the other form of path tracing (path.h).
 //
 // In each turn of the loop a thread traces one ray, whether it is the path's next one or one to a light: all threads
 // do that together, and then what follows from their rays. A ray that uses up its iterations resumes in the next turn.
+//
+// No thread goes on with another path where its own has ended (J. Novak, V. Havran, C. Dachsbacher, Path Regeneration
+// for Interactive Path Tracing, 2010): a GPU that gets all paths at once takes less time (docs/performance.md).
 #extension GL_GOOGLE_include_directive : require
 #extension GL_KHR_shader_subgroup_basic : require
 #extension GL_KHR_shader_subgroup_arithmetic : require
@@ -33,15 +30,7 @@ layout(local_size_x = kPathGroup) in;
 
 const bool kRanked = kEntriesPerWord != 0u && kNodeLevels > 1u && kFormat != kFormatNone; // hits have indices by ranks
 
-shared uint s_taken; // pixels of the workgroup
-
-// The pixel that the workgroup takes after so many others; params.end_pixel or more: there is none.
-uint pixelTaken(uint taken)
-{
-    uint tile = taken / kPathGroup * params.workgroups + workgroupIndex();
-    uint number = params.first_pixel + tile * kPathGroup + taken % kPathGroup;
-    return workgroupIndex() < params.workgroups ? number : params.end_pixel;
-}
+const uint kEnded = ~0u; // Path::bounce of a path that has ended
 
 // A path on its way.
 struct Path
@@ -148,31 +137,26 @@ bool advance(Ray ray, Hit hit, inout Path path, inout Shadow shadow)
 
 void main()
 {
-    if (gl_LocalInvocationIndex == 0u)
-        s_taken = kPathGroup;
-    barrier();
-    uint number = pixelTaken(gl_LocalInvocationIndex);
+    if (threadIndex() >= params.pixel_count)
+        return;
+    uint number = params.first_pixel + threadIndex();
     g_halves = uint64_t_ConstPtr(uint64_t(params.nodes));
     g_leaf_groups = uint64_t_ConstPtr(uint64_t(params.tree.data[0].source.before));
 
-    Path path;
+    Path path = beginPath(number);
     Shadow shadow;
     shadow.exists = false;
     uvec3 from = uvec3(0u); // where the ray resumes
     uint round = 0u;
     uvec2 counts = uvec2(0u); // of rays of paths and of those to lights
-    bool begins = true;
-    bool go = number < params.end_pixel;
+    bool go = true;
     for (; go;)
     {
-        if (begins)
-            path = beginPath(number);
         Ray ray = Ray(path.origin, 0.0, shadow.exists ? shadow.inverse_direction : path.inverse_direction,
                       kTraceTimeMax);
         Traversal met = traceRay(ray, from);
         ++round;
         bool resumes = met.unfinished && round < kTraceRoundsMax;
-        begins = false;
         from = uvec3(0u);
         if (resumes)
         {
@@ -195,18 +179,14 @@ void main()
             {
                 if (kRanked && !isMiss(hit))
                     hit.index = attributeIndexOf(hit);
-                begins = !advance(ray, hit, path, shadow);
-            }
-            if (begins)
-            {
-                addSample(params.sums, number, path.radiance);
-                if (kFeatures)
-                    addScattered(params.features, number, path.radiance, path.direct);
-                number = pixelTaken(atomicAdd(s_taken, 1u));
+                go = advance(ray, hit, path, shadow);
+                path.bounce = go ? path.bounce : kEnded;
             }
         }
-        go = number < params.end_pixel;
     }
+    addSample(params.sums, number, path.radiance);
+    if (kFeatures)
+        addScattered(params.features, number, path.radiance, path.direct);
     counts = subgroupAdd(counts);
     if (subgroupElect())
     {
@@ -214,7 +194,8 @@ void main()
         atomicAdd(lengths.data[3u * kListLengths + kListPaths], counts.x);
         atomicAdd(lengths.data[3u * kListLengths + kListShadows], counts.y);
     }
-    // A device that ends loops early (lavapipe, after 65,535 iterations) has lost a path.
-    if (number < params.end_pixel)
+    // A device that ends loops early (lavapipe, after 65,535 iterations) has lost a path. Of what the loop tests,
+    // compilers know how it ends.
+    if (path.bounce != kEnded)
         atomicAdd(params.status.data[0].capped_rays, 1u);
 }

@@ -25,8 +25,6 @@ constexpr TuningValue kBrickThreads[] = {{"8", 8}, {"16", 16}, {"32", 32}, {"64"
 constexpr TuningValue kBrickVoxels[] = {{"128", 128}, {"256", 256}, {"384", 384},
                                         {"512", 512}, {"768", 768}, {"1024", 1024}};
 constexpr TuningValue kPathForms[] = {{"stages", 0}, {"kernel", 1}};
-constexpr TuningValue kPathThreads[] = {
-    {"all", 0}, {"32768", 32768}, {"65536", 65536}, {"131072", 131072}, {"262144", 262144}};
 constexpr TuningValue kSubgroupSizes[] = {{"auto", 0}, {"4", 4},   {"8", 8},    {"16", 16},
                                           {"32", 32},  {"64", 64}, {"128", 128}};
 
@@ -37,7 +35,7 @@ constexpr TuningValue kLoads[] = {{"auto", static_cast<std::uint32_t>(vk::LoadFo
 
 // A GPU wants many short threads: the slowest one sets a pass's time. On software devices idle threads and barriers
 // cost as much as others, and threads share what they compute of a triangle. Measured on an H100: docs/performance.md.
-constexpr std::array<TuningRow, 11> kTable = {{
+constexpr std::array<TuningRow, 10> kTable = {{
     {Tunable::NodeLanes, "node-lanes", "threads that share a node", 1, 4, kNodeLanes},
     {Tunable::RowColumns, "row-columns", "columns of a row block of a big triangle", 256, 16, kRowColumns},
     {Tunable::BandLanes, "band-lanes", "threads that share a band of a big triangle", 1, 16, kBandLanes},
@@ -47,8 +45,6 @@ constexpr std::array<TuningRow, 11> kTable = {{
     {Tunable::BrickVoxels, "brick-voxels", "voxels of a brick whose sums are in shared memory", 1024, 256,
      kBrickVoxels},
     {Tunable::PathForm, "path-form", "paths in stages, or whole in one kernel", 0, 1, kPathForms},
-    {Tunable::PathThreads, "path-threads", "threads that share the paths of a dispatch; all: one a path", 0, 65536,
-     kPathThreads},
     {Tunable::SubgroupSize, vk::kSubgroupSizeName, "threads of a subgroup", 0, 0, kSubgroupSizes},
     {Tunable::Loads, vk::kLoadsName, "how kernels that have both forms reach their buffers", 0, 0, kLoads},
 }};

@@ -25,7 +25,6 @@ enum class Tunable : std::uint8_t
     BrickThreads,
     BrickVoxels,
     PathForm,
-    PathThreads,
     SubgroupSize,
     Loads
 };

@@ -32,14 +32,6 @@ std::uint64_t batchElements(const PathOptions& options)
     return std::uint64_t{std::min(options.bounces, kBouncesMax) + 2} * gpu::kListElements;
 }
 
-// The paths that a thread of path/trace follows, on average. On software devices one, whatever else is asked for:
-// threads run one after the other there, the first of a workgroup would take all, and loops end early (shared/trace.h).
-std::uint64_t pathsOfThread(const vk::Device& device, std::uint64_t pixel_count)
-{
-    const std::uint32_t threads = tunedValue(device, Tunable::PathThreads);
-    return threads == 0 || device.report().type == "cpu" ? 1 : divideUp(pixel_count, threads);
-}
-
 gpu::PathView viewOf(const Grid& grid, const TraceCamera& camera, const PathOptions& options, std::uint32_t width,
                      std::uint32_t height)
 {
@@ -287,14 +279,10 @@ void PathTracer::traceInOneKernel(vk::FrameGraph& graph, const Batch& batch)
     params.lists = pass.readWrite(pixels.batch.lists);
     params.status = pass.readWrite(pixels.status);
     params.first_pixel = batch.first_pixel;
-    params.end_pixel = batch.first_pixel + batch.pixel_count;
+    params.pixel_count = batch.pixel_count;
     params.sample_index = m_sample_count;
     params.bounces = std::min(options.bounces, kBouncesMax);
-    const std::uint64_t paths_of_thread =
-        options.paths_of_thread != 0 ? options.paths_of_thread : pathsOfThread(m_device, batch.pixel_count);
-    const std::uint64_t groups = divideUp(batch.pixel_count, gpu::kPathGroup * paths_of_thread);
-    params.workgroups = static_cast<std::uint32_t>(groups);
-    pass.dispatch(groups * gpu::kPathGroup, params);
+    pass.dispatch(batch.pixel_count, params);
 }
 
 void PathTracer::traceInStages(vk::FrameGraph& graph, const Batch& batch)

@@ -28,7 +28,7 @@ enum class PathForm : std::uint8_t
     /// A bounce of all paths of a batch at a time, in small kernels over lists of those that need them. For devices
     /// that skip no branch: software devices.
     Stages,
-    /// One kernel, whose threads follow one path after the other. For GPUs: nothing is stored between bounces.
+    /// One kernel, whose threads follow a path each. For GPUs: nothing is stored between bounces.
     OneKernel,
 };
 
@@ -48,7 +48,6 @@ struct PathOptions
     bool roulette = false;             // ends paths early that would bring little light, by chance
     bool reseeds = false;              // has other random numbers whenever it begins anew
     bool features = false;             // sums up what the camera sees, too (PathTracer::guided())
-    std::uint32_t paths_of_thread = 0; // PathForm::OneKernel only; 0: by device and picture
 
     bool operator==(const PathOptions&) const = default;
 };
