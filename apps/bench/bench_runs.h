@@ -20,14 +20,15 @@ namespace zvo::cli
 /// For how long GPUs are warmed up: after a pause they raise their clocks within a second or two.
 inline constexpr std::chrono::milliseconds kWarmUp{2500};
 
-/// Does work that is measured later: once, and on GPUs until they have run for kWarmUp.
+/// Does work that is measured later: once, which makes its kernels, and then on GPUs until they have run for kWarmUp.
 template <typename Work> void warmUp(vk::HeadlessDevice& device, const Work& work)
 {
+    work();
     const auto begin = std::chrono::steady_clock::now();
-    do
+    while (device.device().report().type != "cpu" && std::chrono::steady_clock::now() - begin < kWarmUp)
     {
         work();
-    } while (device.device().report().type != "cpu" && std::chrono::steady_clock::now() - begin < kWarmUp);
+    }
 }
 
 /// Adds passes, each divided by run_count, to the sums with the same names. Both stay in order of occurrence.

@@ -98,8 +98,6 @@ public:
             return msOf(build(), {"voxelize/bands", "voxelize/rows"});
         case Tunable::MixedSums:
         case Tunable::VoxelForm:
-        case Tunable::BrickThreads:
-        case Tunable::BrickVoxels:
             return sumMs(build());
         case Tunable::PathForm:
             return sumMs(paths());
@@ -188,9 +186,6 @@ bool canHave(const vk::Device& device, Tunable tunable, std::uint32_t value)
     case Tunable::SubgroupSize:
         return value == 0 || (report.min_subgroup_size != 0 && value >= report.min_subgroup_size &&
                               value <= report.max_subgroup_size);
-    case Tunable::BrickThreads:
-    case Tunable::BrickVoxels: // of nothing that is measured, unless voxelization goes by bricks
-        return tunedValue(device, Tunable::VoxelForm) != 0 || value == tunedValue(device, tunable);
     case Tunable::RowColumns:
     case Tunable::MixedSums:
     case Tunable::VoxelForm:

@@ -24,7 +24,7 @@ const bool kEmits = false;
 #define EDGE_WIDE
 #include "baseline/slides_triangle.glsl"
 #include "voxelize/loads.glsl"
-#include "voxelize/shading.glsl"
+#include "voxelize/surface.glsl"
 
 SlidesFragment packFragment(uvec3 color, ivec3 normal)
 {

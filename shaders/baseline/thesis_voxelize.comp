@@ -20,7 +20,7 @@ const bool kEmits = false;
 #include "voxelize/loads.glsl"
 #include "voxelize/raster.glsl"
 #include "voxelize/resolve.glsl"
-#include "voxelize/shading.glsl"
+#include "voxelize/surface.glsl"
 #include "voxelize/sums.glsl"
 #include "voxelize/window.glsl"
 

@@ -19,8 +19,8 @@ GPU_NAMESPACE_BEGIN
 /// A first word of 0 means that the entry is free. Both words of a wide key are set by the end of the dispatch that
 /// sets them. The masks are those of Node. base is the node's index while the octree is built, and in a leaf,
 /// afterwards, its first voxel. With wide keys base is not available: once a node has its index, that takes the place
-/// of mask_lo, as the masks are then in the node. While voxelization puts triangles into bricks, mask_lo is the number
-/// of a brick's items, and then mask_hi the place of the next one.
+/// of mask_lo, as the masks are then in the node. While voxelization covers bricks, mask_lo is a brick's number among
+/// them.
 struct BrickEntry
 {
     uint key;

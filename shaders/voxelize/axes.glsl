@@ -30,6 +30,12 @@ i64vec3 permuted(i64vec3 a, uint axis)
     return axis == 0u ? a.yzx : (axis == 1u ? a.zxy : a);
 }
 
+// In x, y, z what is given in u, v, w.
+ivec3 unpermuted(ivec3 a, uint axis)
+{
+    return axis == 0u ? a.zxy : (axis == 1u ? a.yzx : a);
+}
+
 // Voxels low to high along an axis that may be mirrored. mirror: -1 or 0.
 ivec2 mirroredRange(ivec2 range, int mirror)
 {

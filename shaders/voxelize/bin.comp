@@ -1,6 +1,6 @@
 #version 460
 // SPDX-License-Identifier: MIT
-// Sorts triangles into bricks, a thread a triangle. Small ones go into all bricks that their box touches, mostly a
+// Sets triangles up, and sorts them into bricks, a thread a triangle. Small ones go into all bricks that their box touches, mostly a
 // single one. Large ones are listed for voxelize/bin_large, in blocks of columns of bricks.
 #extension GL_GOOGLE_include_directive : require
 #include "voxelize/bricks.h"
@@ -8,14 +8,36 @@
 GPU_ENTRY(BinParams, VOXELIZE_BIN_CONSTANTS);
 layout(local_size_x = kChunkTriangles) in;
 
+const uint kCoverage = kCoverageThin;
+const bool kThin = true;
+const uint kMode = kModeAttributes;
+const bool kEmits = false;
+
 #define BRICKS_BINDING 0
+#define COLOR_BINDING 15
+#define EDGE_INT int64_t
+#define EDGE_IVEC3 i64vec3
+#define EDGE_WIDE
+#extension GL_KHR_shader_subgroup_arithmetic : require
 #include "lib/arrivals.glsl"
 #include "lib/dispatch.glsl"
-#include "voxelize/axes.glsl"
 #include "voxelize/bin.glsl"
 #include "voxelize/chunk.glsl"
 #include "voxelize/dropped.glsl"
+#include "voxelize/setup.glsl"
+#include "voxelize/surface.glsl"
 #include "voxelize/snap.glsl"
+
+// Four words of the setups.
+#ifdef BOUND
+STORAGE(17, uvec4, setups);
+STORAGE(18, uvec4, surfaces);
+#define STORED_SETUP(I) storage_setups.data[I]
+#define STORED_SURFACE(I) storage_surfaces.data[I]
+#else
+#define STORED_SETUP(I) uvec4_Ptr(uint64_t(params.setups)).data[I]
+#define STORED_SURFACE(I) uvec4_Ptr(uint64_t(params.surfaces)).data[I]
+#endif
 
 ivec3 extentOf(SnappedTriangle t)
 {
@@ -23,9 +45,8 @@ ivec3 extentOf(SnappedTriangle t)
 }
 
 // Blocks are those of the projection along the major axis, row by row.
-void listLarge(SnappedTriangle snapped, uint draw, uint triangle)
+void listLarge(SnappedTriangle snapped, uint axis, uint triangle)
 {
-    uint axis = majorAxis(snapped.normal, snapped.low, snapped.high);
     ivec3 size = (snapped.high >> int(kBrickLog2)) - (snapped.low >> int(kBrickLog2)) + 1;
     uvec2 blocks = (uvec2(permuted(size, axis).xy) + (kBlockBricks - 1u)) / kBlockBricks;
     uint count = blocks.x * blocks.y;
@@ -40,7 +61,7 @@ void listLarge(SnappedTriangle snapped, uint draw, uint triangle)
         atomicMax(params.counters.data[0].wide_count, 1u); // before large_count wraps around
     for (uint block = 0u; block < count; ++block)
         if (first + block < params.large_capacity)
-            params.large.data[first + block] = LargeBlock(draw, triangle, block);
+            params.large.data[first + block] = LargeBlock(triangle, block);
 }
 
 // Whether the triangle is short, in the grid and beyond, and has few columns.
@@ -55,29 +76,80 @@ bool isSmall(SnappedTriangle t)
            most * middle <= int(kItemColumns);
 }
 
-void takeTriangle(ChunkTriangle taken)
+// Of what the triangle's surface needs, all that fragments do not change.
+void writeSetup(uint place, Surface surface, RasterTriangle t, uint material, uint flags)
+{
+    flags |= t.axis | (t.mirror.x != 0 ? kSetupMirrorU : 0u) | (t.mirror.y != 0 ? kSetupMirrorV : 0u) |
+             (t.exchanged ? kSetupExchanged : 0u) | (surface.textured ? kSetupTextured : 0u) |
+             (surface.colored ? kSetupColored : 0u);
+    if (surface.textured)
+        flags |= surface.texture.wrap_u << kSetupWrapU | surface.texture.wrap_v << kSetupWrapV;
+    ivec3 n0 = surface.normals[0];
+    ivec3 n1 = surface.normals[1];
+    ivec3 n2 = surface.normals[2];
+    STORED_SETUP(4u * place) = uvec4(t.u, t.v.x);
+    STORED_SETUP(4u * place + 1u) = uvec4(t.v.yz, t.w.xy);
+    STORED_SETUP(4u * place + 2u) = uvec4(t.w.z, pack16(n0.x, n0.y), pack16(n0.z, n1.x), pack16(n1.y, n1.z));
+    STORED_SETUP(4u * place + 3u) = uvec4(pack16(n2.x, n2.y), pack16(n2.z, 0), material, flags);
+    if (surface.textured || surface.colored)
+    {
+        STORED_SURFACE(4u * place) = uvec4(surface.uvs.u, surface.uvs.v.x);
+        STORED_SURFACE(4u * place + 1u) = uvec4(surface.uvs.v.yz, surface.level_number, surface.colors[0].x);
+        STORED_SURFACE(4u * place + 2u) = uvec4(surface.colors[0].y, surface.colors[1], surface.colors[2].x);
+        STORED_SURFACE(4u * place + 3u) = uvec4(surface.colors[2].y, 0u, 0u, 0u);
+    }
+}
+
+// Returns the triangle's box of voxels in x, y, z, and what the setup says of it.
+uint setUp(ChunkTriangle taken, out ivec3 low, out ivec3 high)
 {
     uvec3 vertices = loadTriangle(taken.draw.first_triangle + taken.triangle);
     SnappedTriangle snapped = snapTriangle(taken.draw, vertices, true);
-    bool kept = taken.exists && snapped.fate == kKept && all(lessThanEqual(snapped.low, snapped.high));
-    bool small = isSmall(snapped);
-    if (!kWrites && taken.exists)
+    low = snapped.low;
+    high = snapped.high;
+    uint flags = 0u;
+    if (taken.exists)
     {
         countDropped(snapped.fate);
-        if (kept && !small)
-            listLarge(snapped, taken.draw_number, taken.triangle);
+        if (snapped.fate == kKept && all(lessThanEqual(low, high)))
+        {
+            flags = kSetupKept | (isSmall(snapped) ? kSetupSmall : 0u);
+            uint axis = majorAxis(snapped.normal, low, high);
+            RasterTriangle t = setupTriangle(snapped.v0, snapped.v1, snapped.v2, snapped.normal, axis, low, high, 0);
+            Surface surface = loadSurface(taken.draw, vertices, vec3(snapped.normal), float(t.n_w));
+            writeSetup(taken.place, surface, t, taken.draw.material, flags);
+            if (!isSmall(snapped))
+                listLarge(snapped, axis, taken.place);
+        }
+        else
+        {
+            STORED_SETUP(4u * taken.place + 3u) = uvec4(0u);
+        }
     }
-    ivec3 low = snapped.low >> int(kBrickLog2);
-    ivec3 high = snapped.high >> int(kBrickLog2);
+    return flags;
+}
+
+void takeTriangle(ChunkTriangle taken)
+{
+    ivec3 low;
+    ivec3 high;
+    uint flags = setUp(taken, low, high);
+    low >>= int(kBrickLog2);
+    high >>= int(kBrickLog2);
+    uvec3 size = (flags & kSetupSmall) != 0u ? uvec3(high - low + 1) : uvec3(0u);
+    uint count = size.x * size.y * size.z;
+    uint total = subgroupAdd(count);
+    uint place = subgroupExclusiveAdd(count);
+    uint first = 0u;
+    if (subgroupElect() && total != 0u)
+        first = addItems(total);
+    place += subgroupBroadcastFirst(first);
     ivec3 brick = low;
-    for (bool walking = kept && small; walking;)
+    for (uint left = count; left > 0u; --left)
     {
-        uint place = takeItems(brickKey(uvec3(brick), brickLevel()), 1u);
-        if (kWrites)
-            writeItem(place, taken.draw_number, kWholeBox, taken.triangle);
+        writeItem(place++, taken.place, kWholeBox, brickEntry(brickKey(uvec3(brick), brickLevel())));
         bool x_ends = brick.x == high.x;
         bool y_ends = x_ends && brick.y == high.y;
-        walking = !y_ends || brick.z != high.z;
         brick = ivec3(x_ends ? low.x : brick.x + 1, y_ends ? low.y : (x_ends ? brick.y + 1 : brick.y),
                       y_ends ? brick.z + 1 : brick.z);
     }
@@ -99,7 +171,8 @@ void sizeLarge(uint group_count)
 void main()
 {
     ChunkTriangle taken = loadChunkTriangle();
+    taken.place += params.first_setup;
     takeTriangle(taken);
-    if (!kWrites && workgroupIndex() < chunkGroups())
+    if (workgroupIndex() < chunkGroups())
         sizeLarge(chunkGroups());
 }

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Puts items into bricks. Count first, then write: the table's entry of a brick counts its items in mask_lo, and has
-// the place of the next one in mask_hi.
+// Makes items, in the order of triangles, which mostly lie near each other.
 // Needs GPU_ENTRY with BinParams.
 #ifndef ZVO_SHADERS_VOXELIZE_BIN_GLSL
 #define ZVO_SHADERS_VOXELIZE_BIN_GLSL
@@ -10,9 +9,6 @@
 #include "lib/brick_keys.glsl"
 #include "lib/bricks.glsl"
 #include "voxelize/window.glsl"
-
-const uint kCursorWord = kMaskWord + 1u;
-const uint kNoPlace = ~0u;
 
 // Level of the bricks among the nodes' levels.
 uint brickLevel()
@@ -26,34 +22,29 @@ uint largeGroups(uint block_count)
     return (block_count + kLargeGroup / kBlockLanes - 1u) / (kLargeGroup / kBlockLanes);
 }
 
-// Counts `count` items of the brick with this key. Or makes room for them, and returns the first one's place; the place
-// of none if the brick is not in the table.
-uint takeItems(uvec2 key, uint count)
+// The entry of the brick with this key, which it gets if it has none.
+uint brickEntry(uvec2 key)
 {
-    uint first = kNoPlace;
-    if (kWrites)
-    {
-        BrickEntry found;
-        uint entry = brickFind(key, found);
-        if (entry != kNoEntry)
-            first = atomicAdd(BRICK_WORD(entry, kCursorWord), count);
-    }
-    else
-    {
-        bool claimed;
-        uint entry = brickFindOrInsert(key, claimed);
-        if (entry != kNoEntry)
-            atomicAdd(BRICK_WORD(entry, kMaskWord), count);
-        else
-            atomicAdd(params.counters.data[0].overflow_count, 1u);
-    }
+    bool claimed;
+    uint entry = brickFindOrInsert(key, claimed);
+    if (entry == kNoEntry)
+        atomicAdd(params.counters.data[0].overflow_count, 1u);
+    return entry;
+}
+
+// Makes room for items. Returns the first one's place.
+uint addItems(uint count)
+{
+    uint first = atomicAdd(params.counters.data[0].item_count, count);
+    if (first + count < first)
+        atomicAdd(params.counters.data[0].item_carry, 1u);
     return first;
 }
 
-void writeItem(uint place, uint draw, uint tile, uint triangle)
+void writeItem(uint place, uint triangle, uint tile, uint entry)
 {
     if (place < params.item_capacity)
-        params.items.data[place] = BrickItem(draw | (tile << kItemTileShift), triangle);
+        params.items.data[place] = BrickItem(triangle | (tile << kItemTileShift), entry);
 }
 
 #endif

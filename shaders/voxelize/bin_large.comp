@@ -1,6 +1,6 @@
 #version 460
 // SPDX-License-Identifier: MIT
-// Sorts large triangles into bricks, kBlockLanes threads a block of them: each takes every kBlockLanes-th column.
+// Makes the items of large triangles, kBlockLanes threads a block of them: each takes every kBlockLanes-th column.
 // The test is exact and conservative: that of voxels, at the scale of bricks. In a brick, tiles of columns that the
 // triangle's outline or plane does not reach get no item.
 #extension GL_GOOGLE_include_directive : require
@@ -17,12 +17,11 @@ const bool kThin = false;
 #define EDGE_IVEC3 i64vec3
 #define EDGE_WIDE
 #define RASTER_CELL_LOG2 kBrickLatticeLog2
+#define SETUPS_BINDING 17
 #include "voxelize/bin.glsl"
 #include "lib/arithmetic.glsl"
 #include "lib/dispatch.glsl"
-#include "voxelize/loads.glsl"
-#include "voxelize/raster.glsl"
-#include "voxelize/snap.glsl"
+#include "voxelize/setup.glsl"
 
 // Which of the 4x4 tiles of a brick the triangle may have voxels in, bit u + 4 v. cell: the walk's state at the brick.
 // voxels: of the triangle, inside the grid.
@@ -38,7 +37,6 @@ uint tilesOf(RasterTriangle t, RasterCell cell, ivec2 column, CellBox voxels)
     i64vec3 support = i64vec3(abs(t.edge_u)) + i64vec3(abs(t.edge_v));
     i64vec3 row = cell.uv - support * int64_t(kCell / 2 - half_tile) + product(t.edge_u, ivec3(first)) -
                   product(t.edge_v, ivec3(first));
-    // Both passes over the triangles must find the same.
     precise vec2 slope = vec2(float(t.rise_u), float(t.rise_v)) * (1.0 / float(t.n_w)); // layers a column
     ivec2 to_first = corner * kVoxelLattice + half_tile - ivec2(t.u.x, t.v.x);
     precise vec2 rise = slope * vec2(to_first);
@@ -75,12 +73,13 @@ void binColumn(RasterTriangle t, ivec2 column, CellBox voxels, LargeBlock large)
         if (isCovered(t, cell))
         {
             uint tiles = tilesOf(t, cell, column, voxels);
-            uint place = kNoPlace;
             if (tiles != 0u)
-                place = takeItems(brickKey(uvec3(voxelOf(t, column, cell.w)), brickLevel()), bitCount(tiles));
-            if (kWrites)
+            {
+                uint entry = brickEntry(brickKey(uvec3(voxelOf(t, column, cell.w)), brickLevel()));
+                uint place = addItems(bitCount(tiles));
                 for (; tiles != 0u; tiles &= tiles - 1u)
-                    writeItem(place == kNoPlace ? place : place++, large.draw, uint(findLSB(tiles)), large.triangle);
+                    writeItem(place++, large.triangle, uint(findLSB(tiles)), entry);
+            }
         }
         walking = cell.w < high;
         moveUp(t, walking, cell);
@@ -97,13 +96,13 @@ void main()
     if (thread / kBlockLanes >= block_count)
         return;
     LargeBlock large = params.large.data[thread / kBlockLanes];
-    Draw draw = loadDraw(large.draw);
-    SnappedTriangle snapped = snapTriangle(draw, loadTriangle(draw.first_triangle + large.triangle), true);
-    uint axis = majorAxis(snapped.normal, snapped.low, snapped.high);
-    RasterTriangle t = setupTriangle(snapped.v0, snapped.v1, snapped.v2, snapped.normal, axis,
-                                     snapped.low >> int(kBrickLog2), snapped.high >> int(kBrickLog2),
-                                     gridResolution() >> int(kBrickLog2));
-    CellBox voxels = boxOf(t.axis, t.mirror, snapped.low, snapped.high);
+    TriangleSetup setup = loadSetup(large.triangle);
+    ivec3 window_low = ivec3(0);
+    ivec3 window_high = ivec3(gridResolution() - 1);
+    clipToWindow(window_low, window_high);
+    CellBox voxels = voxelBox(setup, window_low, window_high);
+    CellBox bricks = CellBox(voxels.low >> int(kBrickLog2), voxels.high >> int(kBrickLog2));
+    RasterTriangle t = rasterTriangle(setup, bricks, gridResolution() >> int(kBrickLog2));
     uint row_blocks = (uint(t.high.x - t.low.x + 1) + kBlockBricks - 1u) / kBlockBricks;
     ivec2 first = t.low.xy + ivec2(kBlockBricks * uvec2(large.block % row_blocks, large.block / row_blocks));
     uvec2 size = min(uvec2(t.high.xy - first + 1), uvec2(kBlockBricks));

@@ -20,6 +20,7 @@ struct ChunkTriangle
     Draw draw;
     uint draw_number;
     uint triangle; // of the draw
+    uint place;    // among the triangles of all chunks
 };
 
 // Call where all threads are active: lavapipe then loads for one thread what is uniform.
@@ -34,7 +35,8 @@ ChunkTriangle loadChunkTriangle()
     uint triangle = chunk.y + (kSingle ? 0u : gl_LocalInvocationIndex);
     Draw draw = loadDraw(chunk.x);
     bool exists = workgroupIndex() < group_count && number < params.chunk_count && triangle < draw.triangle_count;
-    return ChunkTriangle(exists, draw, chunk.x, min(triangle, draw.triangle_count - 1u));
+    uint place = kSingle ? number : number * kChunkTriangles + gl_LocalInvocationIndex;
+    return ChunkTriangle(exists, draw, chunk.x, min(triangle, draw.triangle_count - 1u), place);
 }
 
 #endif

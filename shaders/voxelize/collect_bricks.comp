@@ -1,6 +1,7 @@
 #version 460
 // SPDX-License-Identifier: MIT
-// Lists the bricks that have voxels as work items of octree construction, in the place of leaves, and counts.
+// Lists the bricks that have voxels as work items of octree construction, in the place of leaves, and counts their
+// leaves and voxels.
 #extension GL_GOOGLE_include_directive : require
 #include "voxelize/bricks.h"
 
@@ -13,38 +14,92 @@ layout(local_size_x = kBricksGroup) in;
 #include "lib/dispatch.glsl"
 #include "octree/nodes.glsl"
 
+const uint kBrickLanes = 8u; // threads that count a brick together
+
+shared uint s_leaves_lo[kBricksGroup];
+shared uint s_leaves_hi[kBricksGroup];
+shared uint s_voxels[kBricksGroup];
+shared uint s_mixed[kBricksGroup];
+
+uint bitCounts(uvec4 words)
+{
+    return bitCount(words.x) + bitCount(words.y) + bitCount(words.z) + bitCount(words.w);
+}
+
+// Counts the part of a brick that a thread takes. slot: of the brick in the workgroup.
+void countBrick(uint brick, uint slot)
+{
+    uvec2 leaves = uvec2(0u);
+    uint voxels = 0u;
+    uint mixed = 0u;
+    uvec4_ConstPtr masks = uvec4_ConstPtr(uint64_t(params.masks) + uint64_t(brick) * (4u * kMaskWords));
+    for (uint pair = gl_LocalInvocationIndex % kBrickLanes; pair < kBrickLeaves / 2u; pair += kBrickLanes)
+    {
+        uvec4 words = masks.data[pair];
+        uint found = ((words.x | words.y) != 0u ? 1u : 0u) | ((words.z | words.w) != 0u ? 2u : 0u);
+        found <<= (2u * pair) & 31u;
+        leaves |= pair < kBrickLeaves / 4u ? uvec2(found, 0u) : uvec2(0u, found);
+        voxels += bitCounts(words);
+        mixed += bitCounts(masks.data[kBrickLeaves / 2u + pair]);
+    }
+    if (voxels != 0u)
+    {
+        atomicOr(s_leaves_lo[slot], leaves.x);
+        atomicOr(s_leaves_hi[slot], leaves.y);
+        atomicAdd(s_voxels[slot], voxels);
+        atomicAdd(s_mixed[slot], mixed);
+    }
+}
+
 void main()
 {
     uint brick_count = params.counters.data[0].listed_count;
     uint group_count = (brick_count + kBricksGroup - 1u) / kBricksGroup;
     if (workgroupIndex() >= group_count)
         return;
+    uint lane = gl_LocalInvocationIndex;
+    s_leaves_lo[lane] = 0u;
+    s_leaves_hi[lane] = 0u;
+    s_voxels[lane] = 0u;
+    s_mixed[lane] = 0u;
+    barrier();
+    for (uint slot = lane / kBrickLanes; slot < kBricksGroup; slot += kBricksGroup / kBrickLanes)
+        if (workgroupIndex() * kBricksGroup + slot < brick_count)
+            countBrick(workgroupIndex() * kBricksGroup + slot, slot);
+    barrier();
     uint brick = threadIndex();
-    BrickRange range = BrickRange(0u, 0u, 0u, 0u, 0u, 0u, 0u, 0u);
+    uint entry = 0u;
+    uvec2 leaves = uvec2(s_leaves_lo[lane], s_leaves_hi[lane]);
+    uint voxels = s_voxels[lane];
     if (brick < brick_count)
-        range = params.ranges.data[brick];
-    bool has_voxels = range.voxels != 0u;
-    uint leaves = 0u;
-    if (has_voxels)
-        leaves = bitCount(params.bricks.data[range.entry].mask_lo) + bitCount(params.bricks.data[range.entry].mask_hi);
-    uvec3 total = subgroupAdd(uvec3(has_voxels ? 1u : 0u, leaves, range.voxels));
+    {
+        entry = params.ranges.data[brick].entry;
+        params.bricks.data[entry].mask_lo = leaves.x;
+        params.bricks.data[entry].mask_hi = leaves.y;
+    }
+    bool has_voxels = voxels != 0u;
+    uvec4 total = subgroupAdd(
+        uvec4(has_voxels ? 1u : 0u, bitCount(leaves.x) + bitCount(leaves.y), voxels, s_mixed[lane]));
+    uint sums_before = subgroupExclusiveAdd(s_mixed[lane]);
     uint before = subgroupExclusiveAdd(has_voxels ? 1u : 0u);
-    uint first = 0u;
+    uvec2 first = uvec2(0u); // work item, sums
     if (subgroupElect() && total.x != 0u)
     {
-        first = atomicAdd(params.nodes.data[0].node_count, total.x);
+        first.x = atomicAdd(params.nodes.data[0].node_count, total.x);
+        first.y = atomicAdd(params.counters.data[0].mixed_count, total.w);
         atomicAdd(params.counters.data[0].leaf_count, total.y);
         uint voxels_before = atomicAdd(params.counters.data[0].voxel_count, total.z);
         if (voxels_before + total.z < voxels_before)
             atomicAdd(params.counters.data[0].voxel_carry, 1u);
     }
-    uint item = subgroupBroadcastFirst(first) + before;
+    first = subgroupBroadcastFirst(first);
+    uint item = first.x + before;
+    if (brick < brick_count)
+        params.ranges.data[brick] = BrickRange(entry, voxels, 0u, first.y + sums_before);
     if (has_voxels)
     {
-        params.work.data[item] = WorkItem(range.entry, 0u);
+        params.work.data[item] = WorkItem(entry, 0u);
         params.work_bricks.data[item] = brick;
-        if (range.units > 1u)
-            params.ranges.data[brick].first_sums = atomicAdd(params.counters.data[0].summed_voxels, range.voxels);
     }
     uint here = arrivingThreads();
     uint arrived = subgroupElect() ? atomicAdd(params.nodes.data[0].arrived[0], here) : 0u;

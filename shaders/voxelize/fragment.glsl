@@ -14,7 +14,7 @@
 #include "lib/morton.glsl"
 #include "voxelize/raster.glsl"
 #include "voxelize/resolve.glsl"
-#include "voxelize/shading.glsl"
+#include "voxelize/surface.glsl"
 #include "voxelize/sums.glsl"
 #include "voxelize/voxelize.h"
 #include "voxelize/window.glsl"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The columns of a triangle that an item stands for, and which of them the triangle covers.
-// Needs GPU_ENTRY with params.scene, items, origin, lattice_scale and window, and the constant kWideKeys.
+// Needs GPU_ENTRY with params.setups, surfaces, items and window, and the constant kWideKeys.
 #ifndef ZVO_SHADERS_VOXELIZE_ITEM_GLSL
 #define ZVO_SHADERS_VOXELIZE_ITEM_GLSL
 
@@ -12,24 +12,15 @@ const bool kThin = true;
 #define EDGE_INT int64_t
 #define EDGE_IVEC3 i64vec3
 #define EDGE_WIDE
+#define SETUPS_BINDING 17
+#include "lib/arithmetic.glsl"
 #include "lib/brick_keys.glsl"
 #include "lib/morton.glsl"
-#include "voxelize/loads.glsl"
-#include "voxelize/raster.glsl"
-#include "voxelize/snap.glsl"
+#include "voxelize/setup.glsl"
 #include "voxelize/tile_walk.glsl"
 #include "voxelize/window.glsl"
 
 const uint kLayerBits = 4u; // of a layer's number in a brick
-
-// A triangle whose box are the item's columns.
-struct ItemTriangle
-{
-    Draw draw;
-    uvec3 vertices;
-    i64vec3 normal;
-    RasterTriangle t;
-};
 
 #ifdef BOUND
 TEXELS_2(13, items);
@@ -46,26 +37,27 @@ BrickItem loadItem(uint i)
 }
 #endif
 
-// brick: its first voxel.
-ItemTriangle loadTriangle(BrickItem item, ivec3 brick)
+// The setup of the triangle of an item.
+uint setupOf(BrickItem item)
 {
-    ItemTriangle result;
-    uint tile = item.draw >> kItemTileShift;
-    result.draw = loadDraw(item.draw & ((1u << kItemTileShift) - 1u));
-    result.vertices = loadTriangle(result.draw.first_triangle + item.triangle);
-    SnappedTriangle snapped = snapTriangle(result.draw, result.vertices, true);
-    result.normal = snapped.normal;
-    uint axis = majorAxis(snapped.normal, snapped.low, snapped.high);
-    ivec3 low = max(snapped.low, brick);
-    ivec3 high = min(snapped.high, brick + ((1 << kBrickLog2) - 1));
-    result.t = setupTriangle(snapped.v0, snapped.v1, snapped.v2, snapped.normal, axis, low, high, gridResolution());
+    return item.triangle & ((1u << kItemTileShift) - 1u);
+}
+
+// A triangle whose box are the columns of an item. brick: its first voxel.
+RasterTriangle itemTriangle(BrickItem item, TriangleSetup setup, ivec3 brick)
+{
+    ivec3 low = brick;
+    ivec3 high = brick + ((1 << kBrickLog2) - 1);
+    clipToWindow(low, high);
+    CellBox box = voxelBox(setup, low, high);
+    uint tile = item.triangle >> kItemTileShift;
     if (tile != kWholeBox)
     {
-        ivec2 corner = (result.t.low.xy & ~((1 << kBrickLog2) - 1)) + 4 * ivec2(tile & 3u, tile >> 2);
-        result.t.low.xy = max(result.t.low.xy, corner);
-        result.t.high.xy = min(result.t.high.xy, corner + 3);
+        ivec2 corner = (box.low.xy & ~((1 << kBrickLog2) - 1)) + 4 * ivec2(tile & 3u, tile >> 2);
+        box.low.xy = max(box.low.xy, corner);
+        box.high.xy = min(box.high.xy, corner + 3);
     }
-    return result;
+    return rasterTriangle(setup, box, gridResolution());
 }
 
 const uint kColumnsMask = (1u << kItemColumns) - 1u;
@@ -114,11 +106,9 @@ uint numberOf(uvec3 voxel)
     return (cellInBlock(voxel >> 2) << 6) | cellInBlock(voxel);
 }
 
-// Takes the next voxel away from those of an item, which has one. Returns its place in the brick.
-uvec3 takeVoxel(inout ItemVoxels voxels)
+// The voxel in a column of an item: its place in the brick.
+uvec3 voxelInColumn(ItemVoxels voxels, uint column)
 {
-    uint column = uint(findLSB(voxels.info & kColumnsMask));
-    voxels.info &= ~(1u << column);
     uint width = bitfieldExtract(voxels.info, int(kWidthShift), 4) + 1u;
     uint y = divideSmall(column, width);
     uint u = bitfieldExtract(voxels.info, int(kFirstUShift), 4) + column - y * width;
@@ -130,19 +120,43 @@ uvec3 takeVoxel(inout ItemVoxels voxels)
     return axis == 0u ? uvec3(w, u, v) : (axis == 1u ? uvec3(v, w, u) : uvec3(u, v, w));
 }
 
+// Takes the next voxel away from those of an item, which has one. Returns its place in the brick.
+uvec3 takeVoxel(inout ItemVoxels voxels)
+{
+    uint column = uint(findLSB(voxels.info & kColumnsMask));
+    uvec3 voxel = voxelInColumn(voxels, column);
+    voxels.info &= ~(1u << column);
+    return voxel;
+}
+
+// The number of the set bit of mask that has `rank` set bits of lower numbers.
+uint bitOfRank(uint mask, uint rank)
+{
+    uint place = 0u;
+    [[unroll]] for (uint size = kItemColumns / 2u; size > 0u; size /= 2u)
+    {
+        uint below = bitCount(bitfieldExtract(mask, int(place), int(size)));
+        bool beyond = rank >= below;
+        rank -= beyond ? below : 0u;
+        place += beyond ? size : 0u;
+    }
+    return place;
+}
+
 bool hasVoxels(ItemVoxels voxels)
 {
     return (voxels.info & kColumnsMask) != 0u;
 }
 
 // The barycentric edge functions of a triangle over the column of a voxel: component i belongs to vertex i.
-i64vec3 cornersAt(RasterTriangle t, uvec3 voxel)
+i64vec3 cornersAt(TriangleSetup setup, ivec3 voxel)
 {
-    ivec2 column = permuted(ivec3(voxel), t.axis).xy ^ t.mirror;
-    ivec3 to_u = column.x * kVoxelLattice + kVoxelLattice / 2 - t.u;
-    ivec3 to_v = column.y * kVoxelLattice + kVoxelLattice / 2 - t.v;
-    i64vec3 corners = (product(t.edge_u, to_v) - product(t.edge_v, to_u)).yzx;
-    return t.exchanged ? corners.xzy : corners;
+    ivec2 mirror = -ivec2(hasFlag(setup, kSetupMirrorU), hasFlag(setup, kSetupMirrorV));
+    ivec2 column = permuted(voxel, setup.flags & kSetupAxis).xy ^ mirror;
+    ivec3 to_u = column.x * kVoxelLattice + kVoxelLattice / 2 - setup.u;
+    ivec3 to_v = column.y * kVoxelLattice + kVoxelLattice / 2 - setup.v;
+    i64vec3 corners = (product(setup.u.yzx - setup.u, to_v) - product(setup.v.yzx - setup.v, to_u)).yzx;
+    return hasFlag(setup, kSetupExchanged) ? corners.xzy : corners;
 }
 
 // The first voxel of a brick.

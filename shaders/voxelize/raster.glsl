@@ -102,6 +102,11 @@ ivec3 cornersOf(ivec3 vertices, int mirror, bool exchanged)
     return (corners ^ mirror) - mirror;
 }
 
+int topLayer(RasterTriangle t, int resolution)
+{
+    return t.rise_u == 0 && t.rise_v == 0 ? resolution - 1 : kLatticeLimit;
+}
+
 // normal: exact (of the lattice points as they are); low, high: touched voxels in x, y, z.
 RasterTriangle setupTriangle(ivec3 v0, ivec3 v1, ivec3 v2, i64vec3 normal, uint axis, ivec3 low, ivec3 high,
                              int resolution)
@@ -129,7 +134,7 @@ RasterTriangle setupTriangle(ivec3 v0, ivec3 v1, ivec3 v2, i64vec3 normal, uint 
     t.edge_u = t.u.yzx - t.u;
     t.edge_v = t.v.yzx - t.v;
     t.edge_w = t.w.yzx - t.w;
-    t.layer_top = t.rise_u == 0 && t.rise_v == 0 ? resolution - 1 : kLatticeLimit;
+    t.layer_top = topLayer(t, resolution);
     return t;
 }
 
@@ -265,8 +270,7 @@ bool isCovered(RasterTriangle t, RasterCell cell)
 // Voxel coordinates from (u, v, w).
 ivec3 voxelOf(RasterTriangle t, ivec2 column, int w)
 {
-    ivec3 cell = ivec3(column ^ t.mirror, w);
-    return t.axis == 0u ? cell.zxy : (t.axis == 1u ? cell.yzx : cell);
+    return unpermuted(ivec3(column ^ t.mirror, w), t.axis);
 }
 
 // Barycentric edge functions at the column's centre: component i belongs to vertex i.

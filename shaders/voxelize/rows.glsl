@@ -18,7 +18,7 @@
 #include "voxelize/fragment.glsl"
 #include "voxelize/loads.glsl"
 #include "voxelize/raster.glsl"
-#include "voxelize/shading.glsl"
+#include "voxelize/surface.glsl"
 #include "voxelize/tile.glsl"
 
 layout(local_size_x = kRowsGroup) in;

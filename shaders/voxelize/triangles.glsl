@@ -19,7 +19,7 @@
 #include "voxelize/fragment.glsl"
 #include "voxelize/loads.glsl"
 #include "voxelize/raster.glsl"
-#include "voxelize/shading.glsl"
+#include "voxelize/surface.glsl"
 #include "voxelize/snap.glsl"
 
 layout(local_size_x = kChunkTriangles) in;

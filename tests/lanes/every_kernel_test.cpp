@@ -239,9 +239,13 @@ void buildDark(const Grid& grid, Coverage coverage)
     EXPECT_EQ(test::difference(cells[0], cells[1]), "");
     BuildOptions options = {coverage};
     options.by_bricks = true;
-    const BuildResult built = buildOctree(device(), dark, grid, options);
-    noteKernels(built.passes);
-    EXPECT_EQ(test::difference(cells[0], test::cellsOf(device(), built.octree)), "");
+    for (const bool int64 : {false, form.int64})
+    {
+        options.sum_form = SumForm{.int64 = int64};
+        const BuildResult built = buildOctree(device(), dark, grid, options);
+        noteKernels(built.passes);
+        EXPECT_EQ(test::difference(cells[0], test::cellsOf(device(), built.octree)), "");
+    }
 }
 
 TEST(EveryKernel, RunsOnASmallScene)

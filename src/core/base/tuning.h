@@ -22,12 +22,14 @@ enum class Tunable : std::uint8_t
     BandLanes,
     MixedSums,
     VoxelForm,
-    BrickThreads,
-    BrickVoxels,
     PathForm,
     SubgroupSize,
     Loads
 };
+
+/// Values of Tunable::VoxelForm; 0: by triangles.
+inline constexpr std::uint32_t kVoxelsByBricks = 1;
+inline constexpr std::uint32_t kVoxelsAuto = 2; // by bricks, where most triangles have voxels of their own
 
 /// A value that a choice can have, with its name: a number or a word.
 struct TuningValue

@@ -122,8 +122,9 @@ void listBricks(vk::FrameGraph& graph, const Grid& grid, BrickBuffers& bricks, O
     {
         vk::Pass pass = graph.addPass(gpu::voxelize::CollectBricks{});
         pass.dispatchIndirect(bricks.counters, &gpu::BinCounters::collect,
-                              {.bricks = pass.read(bricks.table),
+                              {.bricks = pass.readWrite(bricks.table),
                                .ranges = pass.readWrite(bricks.ranges),
+                               .masks = pass.read(bricks.masks),
                                .work = pass.write(work.items),
                                .work_bricks = pass.write(bricks.work_bricks),
                                .counters = pass.readWrite(bricks.counters),

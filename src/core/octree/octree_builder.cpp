@@ -106,7 +106,7 @@ std::optional<OctreeBuilder::Growth> growthOf(const VoxelizeCapacities& tried, c
 }
 
 // Whether the scene's triangles have voxels of their own. In a dense mesh nearly all voxels are mixed, and telling them
-// from others gains nothing.
+// from others gains nothing; and an item of a brick is hardly more than a voxel.
 bool hasLargeTriangles(const GpuScene& scene, const Grid& grid)
 {
     constexpr double kVoxelsOfTriangle = 2;
@@ -118,7 +118,7 @@ bool hasLargeTriangles(const GpuScene& scene, const Grid& grid)
 bool areBeyondBricks(const gpu::BinCounters& bins)
 {
     return bins.item_carry != 0 || bins.wide_count != 0 || bins.item_count > kIndicesMax ||
-           bins.brick_count > kIndicesMax / gpu::kBrickWords;
+           bins.brick_count > kIndicesMax / gpu::kMaskWords;
 }
 
 bool haveRoom(const BrickCapacities& capacities, const vk::Device& device)
@@ -200,7 +200,9 @@ OctreeBuilder::OctreeBuilder(vk::Device& device, const PosedGpuScene& scene, con
                        (options.sum_form || hasLargeTriangles(scene.uploaded(), grid));
     m_result.capacities =
         usable(options.capacities.value_or(VoxelizeCapacities::estimate(scene.uploaded(), grid, m_row_shape)));
-    const bool by_bricks = options.by_bricks.value_or(tunedValue(device, Tunable::VoxelForm) != 0);
+    const std::uint32_t tuned = tunedValue(device, Tunable::VoxelForm);
+    const bool by_bricks = options.by_bricks.value_or(
+        tuned == kVoxelsByBricks || (tuned == kVoxelsAuto && hasLargeTriangles(scene.uploaded(), grid)));
     const bool shares_capacities = options.capacities && tile.depth < grid.depth; // with the other tiles of a grid
     if (by_bricks && options.attributes && !options.keep_sums && !shares_capacities &&
         suitsBricks(scene.uploaded(), grid, options.coverage))
@@ -504,18 +506,21 @@ void OctreeBuilder::learnBricks()
     const std::uint32_t first_leaf = addLevels(octree.grid.nodeLevels() - 1);
     octree.levels.push_back({first_leaf, bins.leaf_count});
     octree.nodes = {m_device, "octree/nodes", octree.node_count};
-    m_unit_count = bins.unit_count;
-    m_summed_voxels = bins.summed_voxels;
+    m_item_count = bins.item_count;
+    m_mixed_count = bins.mixed_count;
+    m_bricks->bricks.mixed = {m_device, "voxelize/mixed_voxels", bins.leaf_count};
     m_step = {&OctreeBuilder::numberBricks, &OctreeBuilder::endBrickNumbers};
 }
 
 void OctreeBuilder::numberBricks(vk::FrameGraph& graph)
 {
     numberNodes(graph, m_bricks->bricks.table, m_bricks->work, m_result.octree, m_result.octree.levels.size() - 1);
+    placeLeaves(graph, m_tile.grid, m_bricks->bricks, m_bricks->work.items, m_result.octree);
 }
 
 void OctreeBuilder::endBrickNumbers()
 {
+    m_bricks->bricks.masks = {};
     m_step = {&OctreeBuilder::brickAttributes, &OctreeBuilder::learnBrickAttributes};
 }
 
@@ -524,14 +529,13 @@ void OctreeBuilder::brickAttributes(vk::FrameGraph& graph)
     DeviceTree& octree = m_result.octree;
     if (!m_sums)
     {
-        m_device.memory().require(octree.voxel_count * sizeof(gpu::Attribute) +
-                                      m_summed_voxels * sizeof(gpu::VoxelSums),
+        m_device.memory().require(octree.voxel_count * sizeof(gpu::Attribute) + m_mixed_count * sizeof(gpu::VoxelSums),
                                   "averaging the attributes");
         vk::BufferOf<gpu::Attribute> voxel_attributes(m_device, "octree/voxel_attributes", octree.voxel_count);
-        m_sums.emplace(m_device, octree.voxel_count, m_summed_voxels, false);
+        m_sums.emplace(m_device, octree.voxel_count, m_mixed_count, false);
         octree.voxel_attributes = std::move(voxel_attributes);
     }
-    shadeBricks(graph, {m_scene, m_tile, m_bricks->bricks}, m_bricks->work.items, m_unit_count, *m_sums, octree);
+    shadeBricks(graph, {m_scene, m_tile, m_bricks->bricks}, m_item_count, m_sum_form.int64, *m_sums, octree);
     m_offsets.max_fragments = m_readback.copy(graph, m_sums->max_fragments, 0, 1);
 }
 

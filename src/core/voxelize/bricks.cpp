@@ -22,32 +22,6 @@ constexpr std::uint64_t kCapacityGuessMax = 1 << 21;
 constexpr std::uint64_t kItemsMin = 1 << 14;
 constexpr std::uint64_t kItemsGuessMax = 1 << 25;
 
-std::uint32_t groupOn(const vk::Device& device)
-{
-    return tunedValue(device, Tunable::BrickThreads);
-}
-
-// The voxels of a brick whose sums are in shared memory at once, beside the masks, their ranks and the sums of
-// subgroups.
-std::uint32_t sumVoxelsOn(const vk::Device& device)
-{
-    constexpr std::uint32_t kOtherWords = 2 * gpu::kBrickWords + 128 + 1;
-    constexpr std::uint32_t kWordsOfSums = 7;
-    const std::uint32_t words = device.limits().maxComputeSharedMemorySize / sizeof(gpu::uint);
-    return std::min(tunedValue(device, Tunable::BrickVoxels), (words - kOtherWords) / kWordsOfSums);
-}
-
-// The most items of a unit. Lavapipe ends the loops of a thread at 65,535 rounds: for each of its items, as often as a
-// brick's voxels have to be taken in parts, those over the columns, over the texture's levels, and over the voxels.
-std::uint32_t unitItems(const vk::Device& device)
-{
-    constexpr std::uint64_t kItemsOfThread = 64;
-    constexpr std::uint64_t kRoundsMax = 50000;
-    constexpr std::uint64_t kRoundsOfItem = 3 * gpu::kItemColumns;
-    const std::uint64_t parts = divideUp(gpu::kBrickWords * 32, sumVoxelsOn(device));
-    return static_cast<std::uint32_t>(std::min(kItemsOfThread, kRoundsMax / (kRoundsOfItem * parts))) * groupOn(device);
-}
-
 // The class that all materials of a scene belong to.
 MaterialClass classOf(const GpuScene& scene)
 {
@@ -61,22 +35,31 @@ MaterialClass classOf(const GpuScene& scene)
     return MaterialClass::Plain;
 }
 
-// With `writes`, items are written that a run without has counted.
-gpu::BinParams binParams(vk::AnyPass& pass, const BrickJob& job, bool writes)
+// The setups of all triangles of a scene.
+std::uint64_t setupCount(const GpuScene& scene)
+{
+    std::uint64_t count = 0;
+    for (const TriangleChunks& chunks : scene.chunks)
+    {
+        count += chunks.whole.count() * gpu::kChunkTriangles + chunks.single.count();
+    }
+    return count;
+}
+
+// Those with textures or colours of vertices.
+std::uint64_t surfaceCount(const GpuScene& scene)
+{
+    return classOf(scene) != MaterialClass::Plain || scene.colors.count() != 0 ? setupCount(scene) : 0;
+}
+
+gpu::BinParams binParams(vk::AnyPass& pass, const BrickJob& job)
 {
     BrickBuffers& buffers = job.buffers;
     gpu::BinParams params{};
     params.scene = job.scene.read(pass);
     params.bricks = pass.accumulate(buffers.table);
-    if (writes)
-    {
-        params.items = pass.accumulate(buffers.items);
-        params.counters = {pass.read(buffers.counters).address};
-    }
-    else
-    {
-        params.counters = pass.readWrite(buffers.counters);
-    }
+    params.items = pass.accumulate(buffers.items);
+    params.counters = pass.readWrite(buffers.counters);
     params.origin = job.tile.grid.origin;
     params.lattice_scale = latticeScale(job.tile.grid);
     params.window = gpu::packWindow(job.tile.grid.depth, job.tile.depth, job.tile.index);
@@ -86,41 +69,72 @@ gpu::BinParams binParams(vk::AnyPass& pass, const BrickJob& job, bool writes)
     return params;
 }
 
-void binChunks(vk::FrameGraph& graph, const BrickJob& job, const vk::BufferOf<gpu::Chunk>& chunks, bool single,
-               bool writes)
+// first_setup: of these chunks. Returns that of the next ones.
+std::uint32_t binChunks(vk::FrameGraph& graph, const BrickJob& job, const vk::BufferOf<gpu::Chunk>& chunks, bool single,
+                        MaterialClass material_class, std::uint32_t first_setup)
 {
-    if (chunks.count() == 0)
+    const std::uint64_t triangles = single ? chunks.count() : chunks.count() * gpu::kChunkTriangles;
+    if (triangles == 0)
     {
-        return;
+        return first_setup;
     }
     vk::Pass pass = graph.addPass(gpu::voxelize::Bin{.wide_keys = hasWideKeys(job.tile.grid),
-                                                     .writes = writes,
                                                      .single = single,
-                                                     .block_lanes = tunedValue(graph.device(), Tunable::BandLanes)});
-    gpu::BinParams params = binParams(pass, job, writes);
-    if (!writes)
-    {
-        params.large = pass.accumulate(job.buffers.large);
-    }
+                                                     .block_lanes = tunedValue(graph.device(), Tunable::BandLanes),
+                                                     .material_class = material_class});
+    readColorTables(pass, job.scene.uploaded());
+    gpu::BinParams params = binParams(pass, job);
+    params.setups = pass.accumulate(job.buffers.setups);
+    params.surfaces = pass.accumulate(job.buffers.surfaces);
+    params.large = pass.accumulate(job.buffers.large);
     params.chunks = pass.read(chunks);
     params.chunk_count = static_cast<std::uint32_t>(chunks.count());
-    pass.dispatch(single ? chunks.count() : chunks.count() * gpu::kChunkTriangles, params);
+    params.first_setup = first_setup;
+    pass.dispatch(triangles, params);
+    return first_setup + static_cast<std::uint32_t>(triangles);
 }
 
-void binAll(vk::FrameGraph& graph, const BrickJob& job, bool writes)
+void binAll(vk::FrameGraph& graph, const BrickJob& job)
 {
-    for (const TriangleChunks& chunks : job.scene.uploaded().chunks)
+    std::uint32_t first_setup = 0;
+    for (const MaterialClass material_class : {MaterialClass::Plain, MaterialClass::Textured, MaterialClass::Alpha})
     {
-        binChunks(graph, job, chunks.whole, false, writes);
-        binChunks(graph, job, chunks.single, true, writes);
+        const TriangleChunks& chunks = job.scene.uploaded().chunksOf(material_class);
+        first_setup = binChunks(graph, job, chunks.whole, false, material_class, first_setup);
+        first_setup = binChunks(graph, job, chunks.single, true, material_class, first_setup);
     }
     const std::uint32_t lanes = tunedValue(graph.device(), Tunable::BandLanes);
-    vk::Pass pass = graph.addPass(
-        gpu::voxelize::BinLarge{.wide_keys = hasWideKeys(job.tile.grid), .writes = writes, .block_lanes = lanes});
-    gpu::BinParams params = binParams(pass, job, writes);
+    vk::Pass pass =
+        graph.addPass(gpu::voxelize::BinLarge{.wide_keys = hasWideKeys(job.tile.grid), .block_lanes = lanes});
+    gpu::BinParams params = binParams(pass, job);
+    params.setups = {pass.read(job.buffers.setups).address};
     params.large = {pass.read(job.buffers.large).address};
     pass.dispatchIndirect(job.buffers.counters, &gpu::BinCounters::large, params,
                           divideUp(job.buffers.large.count() * lanes, gpu::kLargeGroup));
+}
+
+template <typename Kernel>
+void addAttributes(vk::FrameGraph& graph, const BrickJob& job, std::uint32_t item_count, AttributeBuffers& attributes,
+                   DeviceTree& octree)
+{
+    BrickBuffers& buffers = job.buffers;
+    vk::Pass pass =
+        graph.addPass(Kernel{.wide_keys = hasWideKeys(job.tile.grid), .material_class = classOf(job.scene.uploaded())});
+    readColorTables(pass, job.scene.uploaded());
+    pass.dispatch(item_count, {.scene = job.scene.read(pass),
+                               .setups = pass.read(buffers.setups),
+                               .surfaces = pass.read(buffers.surfaces),
+                               .bricks = pass.read(buffers.table),
+                               .items = pass.read(buffers.items),
+                               .voxels = pass.read(buffers.voxels),
+                               .nodes = pass.read(octree.nodes),
+                               .mixed = pass.read(buffers.mixed),
+                               .sums = pass.accumulate(attributes.sums),
+                               .attributes = pass.write(octree.voxel_attributes),
+                               .window = gpu::packWindow(job.tile.grid.depth, job.tile.depth, job.tile.index),
+                               .first_leaf = octree.levels.back().first_node,
+                               .item_count = item_count,
+                               .sum_shift = attributes.sum_shift});
 }
 
 } // namespace
@@ -139,23 +153,25 @@ BrickCapacities BrickCapacities::estimate(const GpuScene& scene, const Grid& gri
     result.entries = std::bit_ceil(result.bricks * 2); // with the nodes above, no more than two thirds full
     result.items = clampedCount(items * 1.05, kItemsMin, kItemsGuessMax);
     result.large = clampedCount(large, kCapacityMin, kCapacityGuessMax);
+    result.setups = setupCount(scene);
+    result.surfaces = surfaceCount(scene);
     return result;
 }
 
 std::uint64_t BrickCapacities::bytes() const
 {
-    return entries * (sizeof(gpu::BrickEntry) + sizeof(gpu::WorkItem)) +
-           items * (sizeof(gpu::BrickItem) + sizeof(gpu::ItemVoxels)) + large * sizeof(gpu::LargeBlock) +
-           bricks * (sizeof(gpu::BrickRange) + sizeof(gpu::BrickUnit) + 2 * sizeof(gpu::uint) +
-                     gpu::kBrickWords * sizeof(gpu::uint));
+    return entries * (sizeof(gpu::BrickEntry) + sizeof(gpu::WorkItem)) + setups * sizeof(gpu::TriangleSetup) +
+           surfaces * sizeof(gpu::SurfaceSetup) + items * (sizeof(gpu::BrickItem) + sizeof(gpu::ItemVoxels)) +
+           large * sizeof(gpu::LargeBlock) +
+           bricks * (sizeof(gpu::BrickRange) + 2 * sizeof(gpu::uint) + gpu::kMaskWords * sizeof(gpu::uint));
 }
 
 BrickBuffers::BrickBuffers(vk::Device& device, const BrickCapacities& capacities)
-    : table(device, "voxelize/bricks", capacities.entries), ranges(device, "voxelize/brick_ranges", capacities.bricks),
-      units(device, "voxelize/brick_units", capacities.bricks + capacities.items / unitItems(device)),
+    : setups(device, "voxelize/setups", capacities.setups), surfaces(device, "voxelize/surfaces", capacities.surfaces),
+      table(device, "voxelize/bricks", capacities.entries), ranges(device, "voxelize/brick_ranges", capacities.bricks),
       items(device, "voxelize/items", capacities.items), voxels(device, "voxelize/item_voxels", capacities.items),
       large(device, "voxelize/large_blocks", capacities.large),
-      masks(device, "voxelize/brick_masks", capacities.bricks * gpu::kBrickWords),
+      masks(device, "voxelize/brick_masks", capacities.bricks * gpu::kMaskWords),
       counters(device, "voxelize/bin_counters", 1), nodes(device, "voxelize/brick_counters", 1),
       work_bricks(device, "voxelize/work_bricks", capacities.bricks),
       order(device, "voxelize/brick_order", capacities.bricks),
@@ -166,7 +182,7 @@ BrickBuffers::BrickBuffers(vk::Device& device, const BrickCapacities& capacities
 
 bool suitsBricks(const GpuScene& scene, const Grid& grid, Coverage coverage)
 {
-    return coverage == Coverage::Thin && scene.draws.count() < 1ULL << gpu::kItemTileShift && grid.nodeLevels() >= 2 &&
+    return coverage == Coverage::Thin && setupCount(scene) < 1ULL << gpu::kItemTileShift && grid.nodeLevels() >= 2 &&
            scene.has_attributes && !(scene.emission_scale > 0.0F);
 }
 
@@ -178,53 +194,44 @@ void coverBricks(vk::FrameGraph& graph, const BrickJob& job)
     graph.fill(buffers.table, 0);
     graph.fill(buffers.counters, 0);
     graph.fill(buffers.nodes, 0);
-    binAll(graph, job, false);
+    graph.fill(buffers.masks, 0);
+    binAll(graph, job);
     {
         vk::Pass pass = graph.addPass(gpu::voxelize::ListBricks{});
         pass.dispatch(divideUp(buffers.table.count(), gpu::kListItems),
                       {.bricks = pass.readWrite(buffers.table),
                        .ranges = pass.write(buffers.ranges),
-                       .units = pass.write(buffers.units),
-                       .masks = pass.write(buffers.masks),
                        .counters = pass.readWrite(buffers.counters),
                        .brick_capacity = static_cast<std::uint32_t>(buffers.table.count()),
                        .max_groups_x = max_groups_x,
                        .range_capacity = static_cast<std::uint32_t>(buffers.ranges.count()),
                        .item_capacity = static_cast<std::uint32_t>(buffers.items.count()),
-                       .unit_items = unitItems(graph.device()),
                        .large_capacity = static_cast<std::uint32_t>(buffers.large.count())});
     }
-    binAll(graph, job, true);
-    const std::uint32_t threads = groupOn(graph.device());
-    vk::Pass pass = graph.addPass(gpu::voxelize::Cover{
-        .wide_keys = wide, .local_size_x = threads, .material_class = classOf(job.scene.uploaded())});
+    vk::Pass pass =
+        graph.addPass(gpu::voxelize::Cover{.wide_keys = wide, .material_class = classOf(job.scene.uploaded())});
     readColorTables(pass, job.scene.uploaded());
     pass.dispatchIndirect(buffers.counters, &gpu::BinCounters::cover,
                           {.scene = job.scene.read(pass),
-                           .bricks = pass.readWrite(buffers.table),
-                           .ranges = pass.readWrite(buffers.ranges),
-                           .units = pass.read(buffers.units),
+                           .setups = pass.read(buffers.setups),
+                           .surfaces = pass.read(buffers.surfaces),
+                           .bricks = pass.read(buffers.table),
                            .items = pass.read(buffers.items),
                            .voxels = pass.write(buffers.voxels),
                            .masks = pass.readWrite(buffers.masks),
                            .counters = pass.read(buffers.counters),
-                           .origin = job.tile.grid.origin,
-                           .lattice_scale = latticeScale(job.tile.grid),
                            .window = gpu::packWindow(job.tile.grid.depth, job.tile.depth, job.tile.index)},
-                          buffers.units.count());
+                          divideUp(buffers.items.count(), gpu::kCoverGroup));
 }
 
-void shadeBricks(vk::FrameGraph& graph, const BrickJob& job, const vk::BufferOf<gpu::WorkItem>& work,
-                 std::uint32_t unit_count, AttributeBuffers& attributes, DeviceTree& octree)
+void placeLeaves(vk::FrameGraph& graph, const Grid& grid, BrickBuffers& buffers,
+                 const vk::BufferOf<gpu::WorkItem>& work, DeviceTree& octree)
 {
-    BrickBuffers& buffers = job.buffers;
-    const bool wide = hasWideKeys(job.tile.grid);
+    const bool wide = hasWideKeys(grid);
     const auto [first_node, brick_count] = octree.levels[octree.levels.size() - 2];
     const std::uint64_t block_count = divideUp(brick_count, gpu::kScanBlock);
     constexpr std::uint64_t kBlocksUnscanned = 512;
     graph.fill(buffers.partials, 0);
-    graph.fill(attributes.max_fragments, 0);
-    graph.fill(attributes.sums, 0);
     {
         vk::Pass pass = graph.addPass(gpu::voxelize::PlaceBricks{.wide_keys = wide});
         pass.dispatch(brick_count, {.bricks = pass.read(buffers.table),
@@ -251,29 +258,43 @@ void shadeBricks(vk::FrameGraph& graph, const BrickJob& job, const vk::BufferOf<
                                                                  .is_scanned = block_count > kBlocksUnscanned ? 1U : 0U,
                                                                  .brick_count = brick_count});
     }
-    const std::uint32_t threads = groupOn(graph.device());
-    vk::Pass pass = graph.addPass(gpu::voxelize::Attributes{.wide_keys = wide,
-                                                            .local_size_x = threads,
-                                                            .material_class = classOf(job.scene.uploaded()),
-                                                            .sum_voxels = sumVoxelsOn(graph.device())});
+    vk::Pass pass = graph.addPass(gpu::voxelize::BrickLeaves{.wide_keys = wide});
+    pass.dispatch(std::uint64_t{brick_count} * gpu::kBrickLeaves, {.bricks = pass.read(buffers.table),
+                                                                   .ranges = pass.read(buffers.ranges),
+                                                                   .order = pass.read(buffers.order),
+                                                                   .masks = pass.read(buffers.masks),
+                                                                   .nodes = pass.readWrite(octree.nodes),
+                                                                   .mixed = pass.write(buffers.mixed),
+                                                                   .first_leaf = octree.levels.back().first_node,
+                                                                   .brick_count = brick_count});
+}
+
+void shadeBricks(vk::FrameGraph& graph, const BrickJob& job, std::uint32_t item_count, bool int64,
+                 AttributeBuffers& attributes, DeviceTree& octree)
+{
+    BrickBuffers& buffers = job.buffers;
+    const auto [first_leaf, leaf_count] = octree.levels.back();
+    graph.fill(attributes.max_fragments, 0);
+    graph.fill(attributes.sums, 0);
+    if (int64)
+    {
+        addAttributes<gpu::voxelize::AttributesInt64>(graph, job, item_count, attributes, octree);
+    }
+    else
+    {
+        addAttributes<gpu::voxelize::Attributes>(graph, job, item_count, attributes, octree);
+    }
+    vk::Pass pass = graph.addPass(gpu::voxelize::ResolveLeaves{});
     readColorTables(pass, job.scene.uploaded());
-    pass.dispatch(std::uint64_t{unit_count} * threads,
-                  {.scene = job.scene.read(pass),
-                   .bricks = pass.read(buffers.table),
-                   .ranges = pass.readWrite(buffers.ranges),
-                   .units = pass.read(buffers.units),
-                   .items = pass.read(buffers.items),
-                   .voxels = pass.read(buffers.voxels),
-                   .masks = pass.read(buffers.masks),
-                   .sums = pass.readWrite(attributes.sums),
-                   .nodes = pass.readWrite(octree.nodes),
-                   .attributes = pass.write(octree.voxel_attributes),
-                   .max_fragments = pass.readWrite(attributes.max_fragments),
-                   .origin = job.tile.grid.origin,
-                   .lattice_scale = latticeScale(job.tile.grid),
-                   .window = gpu::packWindow(job.tile.grid.depth, job.tile.depth, job.tile.index),
-                   .unit_count = unit_count,
-                   .sum_shift = attributes.sum_shift});
+    pass.dispatch(leaf_count, {.scene = job.scene.read(pass),
+                               .nodes = pass.read(octree.nodes),
+                               .mixed = pass.read(buffers.mixed),
+                               .sums = pass.read(attributes.sums),
+                               .attributes = pass.accumulate(octree.voxel_attributes),
+                               .max_fragments = pass.readWrite(attributes.max_fragments),
+                               .first_leaf = first_leaf,
+                               .leaf_count = leaf_count,
+                               .sum_shift = attributes.sum_shift});
 }
 
 } // namespace zvo

@@ -24,6 +24,8 @@ struct BrickCapacities
     std::uint64_t bricks = 0;  // that triangles may touch
     std::uint64_t items = 0;   // of all bricks
     std::uint64_t large = 0;   // blocks of large triangles
+    std::uint64_t setups = 0;  // of triangles, as many as the scene has
+    std::uint64_t surfaces = 0;
 
     /// A guess from the scene's surface area and the grid; it suffices in most cases.
     static BrickCapacities estimate(const GpuScene& scene, const Grid& grid);
@@ -39,19 +41,21 @@ struct BrickBuffers
 {
     BrickBuffers(vk::Device& device, const BrickCapacities& capacities);
 
-    vk::BufferOf<gpu::BrickEntry> table;     // [entries] bricks; octree construction adds the nodes above them
-    vk::BufferOf<gpu::BrickRange> ranges;    // [bricks] in any order
-    vk::BufferOf<gpu::BrickUnit> units;      // [bricks + items / unit_items]
-    vk::BufferOf<gpu::BrickItem> items;      // [items] those of a brick stand together
-    vk::BufferOf<gpu::ItemVoxels> voxels;    // [items]
-    vk::BufferOf<gpu::LargeBlock> large;     // [large]
-    vk::BufferOf<gpu::uint> masks;           // [bricks * gpu::kBrickWords] of leaves
-    vk::BufferOf<gpu::BinCounters> counters; // [1]
-    vk::BufferOf<gpu::BrickCounters> nodes;  // [1] those of octree construction
-    vk::BufferOf<gpu::uint> work_bricks;     // [bricks] of each work item of octree construction, the number in ranges
-    vk::BufferOf<gpu::uint> order;           // [bricks] numbers in ranges, in the order of nodes
-    vk::BufferOf<gpu::uint> partials;        // [ceil(bricks / gpu::kScanBlock)]
-    vk::BufferOf<gpu::uint> total;           // [1]
+    vk::BufferOf<gpu::TriangleSetup> setups;  // [triangles]
+    vk::BufferOf<gpu::SurfaceSetup> surfaces; // [triangles] or none
+    vk::BufferOf<gpu::BrickEntry> table;      // [entries] bricks; octree construction adds the nodes above them
+    vk::BufferOf<gpu::BrickRange> ranges;     // [bricks] in any order
+    vk::BufferOf<gpu::BrickItem> items;       // [items] those of a brick stand together
+    vk::BufferOf<gpu::ItemVoxels> voxels;     // [items]
+    vk::BufferOf<gpu::LargeBlock> large;      // [large]
+    vk::BufferOf<gpu::uint> masks;            // [bricks * gpu::kMaskWords] of leaves
+    vk::BufferOf<gpu::BinCounters> counters;  // [1]
+    vk::BufferOf<gpu::BrickCounters> nodes;   // [1] those of octree construction
+    vk::BufferOf<gpu::uint> work_bricks;      // [bricks] of each work item of octree construction, the number in ranges
+    vk::BufferOf<gpu::uint> order;            // [bricks] numbers in ranges, in the order of nodes
+    vk::BufferOf<gpu::uint> partials;         // [ceil(bricks / gpu::kScanBlock)]
+    vk::BufferOf<gpu::uint> total;            // [1]
+    vk::BufferOf<gpu::MixedVoxels> mixed;     // [leaves], allocated when their number is known
 };
 
 /// What is voxelized, and into which buffers.
@@ -69,10 +73,15 @@ bool suitsBricks(const GpuScene& scene, const Grid& grid, Coverage coverage);
 /// What does not fit is counted, never written. Cost: triangles, items, and the capacity of the table once.
 void coverBricks(vk::FrameGraph& graph, const BrickJob& job);
 
-/// Records the passes that write the attributes of the voxels and the nodes of the leaves. The nodes above must have
-/// their numbers (numberNodes). work: [bricks first] work items of octree construction. unit_count: as counted.
-/// attributes.sums: [BinCounters::summed_voxels]. Cost: items, fragments and voxels.
-void shadeBricks(vk::FrameGraph& graph, const BrickJob& job, const vk::BufferOf<gpu::WorkItem>& work,
-                 std::uint32_t unit_count, AttributeBuffers& attributes, DeviceTree& octree);
+/// Records the passes that number the voxels of bricks, and write the nodes of leaves. The nodes above must have their
+/// numbers (numberNodes), and buffers.mixed its size. work: [bricks first] work items of octree construction. Cost:
+/// bricks and the cells of their leaves.
+void placeLeaves(vk::FrameGraph& graph, const Grid& grid, BrickBuffers& buffers,
+                 const vk::BufferOf<gpu::WorkItem>& work, DeviceTree& octree);
+
+/// Records the passes that write the attributes of the voxels. item_count: as counted. int64: two words of sums by
+/// one atomic. attributes.sums: as many as there are mixed voxels. Cost: items, fragments and leaves.
+void shadeBricks(vk::FrameGraph& graph, const BrickJob& job, std::uint32_t item_count, bool int64,
+                 AttributeBuffers& attributes, DeviceTree& octree);
 
 } // namespace zvo

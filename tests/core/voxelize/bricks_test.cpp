@@ -33,16 +33,12 @@ vk::HeadlessDevice deviceOfBricks(std::map<std::string_view, std::uint32_t> tuni
     return {options, zvoKernels()};
 }
 
-// What the software device chooses; and what GPUs choose, but fewer voxels at once, so that most bricks take several
-// rounds.
+// What the software device chooses beside it, and what GPUs choose.
 std::vector<vk::HeadlessDevice*> devicesOfBricks()
 {
     static vk::HeadlessDevice software = deviceOfBricks({});
     static vk::HeadlessDevice like_gpus =
-        deviceOfBricks({{"brick-threads", 64},
-                        {"brick-voxels", 128},
-                        {"band-lanes", 16},
-                        {vk::kLoadsName, static_cast<std::uint32_t>(vk::LoadForm::Addresses)}});
+        deviceOfBricks({{"band-lanes", 16}, {vk::kLoadsName, static_cast<std::uint32_t>(vk::LoadForm::Addresses)}});
     return {&software, &like_gpus};
 }
 
