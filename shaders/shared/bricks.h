@@ -31,7 +31,7 @@ struct BrickEntry
 GPU_BUFFER(BrickEntry, 16);
 
 /// The mixed voxels of a leaf: those that several fragments share. A voxelization that keeps sums of these alone has as
-/// many elements behind the entries of its table, in the same order.
+/// many elements behind the entries of its table, in the same order; one by bricks has an element a leaf.
 ///
 ///     byte 0        4        8        12       16
 ///          | mask_lo| mask_hi| first  | 0      |

@@ -2,8 +2,10 @@
 // The attributes of the voxels of the items, a thread an item: those that a single fragment gives are written at once,
 // fragments of mixed voxels are added to their sums.
 // Needs GPU_ENTRY with AttributesParams.
+#ifndef ZVO_SHADERS_VOXELIZE_ATTRIBUTES_GLSL
+#define ZVO_SHADERS_VOXELIZE_ATTRIBUTES_GLSL
 
-layout(local_size_x = kCoverGroup) in;
+layout(local_size_x = kItemsGroup) in;
 
 const bool kEmits = false;
 const uint kMode = kModeAttributes;
@@ -66,9 +68,11 @@ void main()
         uint cell = number & 63u;
         uvec3 weights = fixedWeights(cornersAt(setup, corner + ivec3(voxel)), true);
         VoxelSums sums = sumsOf(fragmentColor(surface, weights).rgb, fragmentNormal(surface, weights));
-        if (((cell < 32u ? mixed.mask_lo : mixed.mask_hi) >> (cell & 31u) & 1u) != 0u)
+        if (isMixed(mixed, cell))
             addToSums(sumsIndex(mixed, cell), sums);
         else
             STORE_MEAN(childIndex(node, cell), sums, 0u);
     }
 }
+
+#endif

@@ -1,7 +1,7 @@
 #version 460
 // SPDX-License-Identifier: MIT
-// Sets triangles up, and sorts them into bricks, a thread a triangle. Small ones go into all bricks that their box touches, mostly a
-// single one. Large ones are listed for voxelize/bin_large, in blocks of columns of bricks.
+// Sets triangles up, and makes their items, a thread a triangle. Small ones have one in each brick that their box
+// touches, mostly a single one. Large ones are listed for voxelize/bin_large, in blocks of columns of bricks.
 #extension GL_GOOGLE_include_directive : require
 #include "voxelize/bricks.h"
 
@@ -20,6 +20,7 @@ const bool kEmits = false;
 #define EDGE_WIDE
 #extension GL_KHR_shader_subgroup_arithmetic : require
 #include "lib/arrivals.glsl"
+#include "lib/bound.glsl"
 #include "lib/dispatch.glsl"
 #include "voxelize/bin.glsl"
 #include "voxelize/chunk.glsl"
@@ -77,11 +78,11 @@ bool isSmall(SnappedTriangle t)
 }
 
 // Of what the triangle's surface needs, all that fragments do not change.
-void writeSetup(uint place, Surface surface, RasterTriangle t, uint material, uint flags)
+void writeSetup(uint place, Surface surface, RasterTriangle t, uint material)
 {
-    flags |= t.axis | (t.mirror.x != 0 ? kSetupMirrorU : 0u) | (t.mirror.y != 0 ? kSetupMirrorV : 0u) |
-             (t.exchanged ? kSetupExchanged : 0u) | (surface.textured ? kSetupTextured : 0u) |
-             (surface.colored ? kSetupColored : 0u);
+    uint flags = t.axis | (t.mirror.x != 0 ? kSetupMirrorU : 0u) | (t.mirror.y != 0 ? kSetupMirrorV : 0u) |
+                 (t.exchanged ? kSetupExchanged : 0u) | (surface.textured ? kSetupTextured : 0u) |
+                 (surface.colored ? kSetupColored : 0u);
     if (surface.textured)
         flags |= surface.texture.wrap_u << kSetupWrapU | surface.texture.wrap_v << kSetupWrapV;
     ivec3 n0 = surface.normals[0];
@@ -100,43 +101,38 @@ void writeSetup(uint place, Surface surface, RasterTriangle t, uint material, ui
     }
 }
 
-// Returns the triangle's box of voxels in x, y, z, and what the setup says of it.
-uint setUp(ChunkTriangle taken, out ivec3 low, out ivec3 high)
+// Returns whether the triangle is small and has voxels, and its box of voxels in x, y, z.
+bool setUp(ChunkTriangle taken, out ivec3 low, out ivec3 high)
 {
     uvec3 vertices = loadTriangle(taken.draw.first_triangle + taken.triangle);
     SnappedTriangle snapped = snapTriangle(taken.draw, vertices, true);
     low = snapped.low;
     high = snapped.high;
-    uint flags = 0u;
+    bool small = false;
     if (taken.exists)
-    {
         countDropped(snapped.fate);
-        if (snapped.fate == kKept && all(lessThanEqual(low, high)))
-        {
-            flags = kSetupKept | (isSmall(snapped) ? kSetupSmall : 0u);
-            uint axis = majorAxis(snapped.normal, low, high);
-            RasterTriangle t = setupTriangle(snapped.v0, snapped.v1, snapped.v2, snapped.normal, axis, low, high, 0);
-            Surface surface = loadSurface(taken.draw, vertices, vec3(snapped.normal), float(t.n_w));
-            writeSetup(taken.place, surface, t, taken.draw.material, flags);
-            if (!isSmall(snapped))
-                listLarge(snapped, axis, taken.place);
-        }
-        else
-        {
-            STORED_SETUP(4u * taken.place + 3u) = uvec4(0u);
-        }
+    if (taken.exists && snapped.fate == kKept && all(lessThanEqual(low, high)))
+    {
+        small = isSmall(snapped);
+        uint axis = majorAxis(snapped.normal, low, high);
+        RasterTriangle t = setupTriangle(snapped.v0, snapped.v1, snapped.v2, snapped.normal, axis, low, high,
+                                         gridResolution());
+        Surface surface = loadSurface(taken.draw, vertices, vec3(snapped.normal), float(t.n_w));
+        writeSetup(taken.place, surface, t, taken.draw.material);
+        if (!small)
+            listLarge(snapped, axis, taken.place);
     }
-    return flags;
+    return small;
 }
 
 void takeTriangle(ChunkTriangle taken)
 {
     ivec3 low;
     ivec3 high;
-    uint flags = setUp(taken, low, high);
+    bool small = setUp(taken, low, high);
     low >>= int(kBrickLog2);
     high >>= int(kBrickLog2);
-    uvec3 size = (flags & kSetupSmall) != 0u ? uvec3(high - low + 1) : uvec3(0u);
+    uvec3 size = small ? uvec3(high - low + 1) : uvec3(0u);
     uint count = size.x * size.y * size.z;
     uint total = subgroupAdd(count);
     uint place = subgroupExclusiveAdd(count);

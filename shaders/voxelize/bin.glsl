@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Makes items, in the order of triangles, which mostly lie near each other.
-// Needs GPU_ENTRY with BinParams.
+// Makes items, in the order of triangles, so that neighbours are mostly of one brick.
+// Needs the constants kWideKeys and kBlockLanes, and params.bricks, brick_mask, items, item_capacity and counters.
 #ifndef ZVO_SHADERS_VOXELIZE_BIN_GLSL
 #define ZVO_SHADERS_VOXELIZE_BIN_GLSL
 
@@ -9,12 +9,6 @@
 #include "lib/brick_keys.glsl"
 #include "lib/bricks.glsl"
 #include "voxelize/window.glsl"
-
-// Level of the bricks among the nodes' levels.
-uint brickLevel()
-{
-    return uint(gridDepth() - 1) / 2u - 1u;
-}
 
 // Workgroups of voxelize/bin_large.
 uint largeGroups(uint block_count)

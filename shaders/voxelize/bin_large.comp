@@ -6,7 +6,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "voxelize/bricks.h"
 
-GPU_ENTRY(BinParams, VOXELIZE_BIN_CONSTANTS);
+GPU_ENTRY(BinLargeParams, VOXELIZE_BIN_LARGE_CONSTANTS);
 layout(local_size_x = kLargeGroup) in;
 
 const uint kCoverage = kCoverageConservative;
@@ -20,6 +20,7 @@ const bool kThin = false;
 #define SETUPS_BINDING 17
 #include "voxelize/bin.glsl"
 #include "lib/arithmetic.glsl"
+#include "lib/bound.glsl"
 #include "lib/dispatch.glsl"
 #include "voxelize/setup.glsl"
 

@@ -9,9 +9,19 @@ layout(local_size_x = kBrickLeaves) in;
 
 #define SCAN_GROUP kBrickLeaves
 #include "lib/brick_keys.glsl"
+#include "lib/bound.glsl"
 #include "lib/dispatch.glsl"
 #include "lib/node.glsl"
 #include "lib/scan.glsl"
+
+#ifdef BOUND
+TEXELS_2(0, masks);
+#define MASKS(I) texelFetch(texels2_masks, int(I)).xy
+#else
+#define MASKS(I) uvec2_ConstPtr(uint64_t(params.masks)).data[I]
+#endif
+
+const int kMixedShift = 16; // a brick has at most 4096 voxels: the sums of both counts fit one word
 
 void main()
 {
@@ -20,20 +30,18 @@ void main()
     uint leaf = gl_LocalInvocationIndex;
     uint brick = params.order.data[workgroupIndex()];
     BrickRange range = params.ranges.data[brick];
-    uvec2_ConstPtr masks = uvec2_ConstPtr(uint64_t(params.masks) + uint64_t(brick) * (4u * kMaskWords));
-    uvec2 mask = masks.data[leaf];
-    uvec2 mixed = masks.data[kBrickLeaves + leaf];
+    uvec2 mask = MASKS(brick * (2u * kBrickLeaves) + leaf);
+    uvec2 mixed = MASKS(brick * (2u * kBrickLeaves) + kBrickLeaves + leaf);
     uint low_voxels = bitCount(mask.x);
     uint total;
-    // A brick has at most 4096 voxels: both sums fit one word.
-    uint before =
-        workgroupExclusiveAdd(low_voxels + bitCount(mask.y) + ((bitCount(mixed.x) + bitCount(mixed.y)) << 16), total);
-    uint first = range.first_voxel + (before & 0xFFFFu);
+    uint mixed_voxels = bitCount(mixed.x) + bitCount(mixed.y);
+    uint before = workgroupExclusiveAdd(low_voxels + bitCount(mask.y) + (mixed_voxels << kMixedShift), total);
+    uint first = range.first_voxel + bitfieldExtract(before, 0, kMixedShift);
     if ((mask.x | mask.y) != 0u)
     {
         uint node = childIndex(params.nodes.data[nodeOf(params.bricks.data[range.entry])], leaf);
         params.nodes.data[node] = Node(mask.x, first, mask.y, first + low_voxels);
         params.mixed.data[node - params.first_leaf] =
-            MixedVoxels(mixed.x, mixed.y, range.first_sums + (before >> 16), 0u);
+            MixedVoxels(mixed.x, mixed.y, range.first_sums + (before >> kMixedShift), 0u);
     }
 }

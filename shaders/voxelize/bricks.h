@@ -11,20 +11,20 @@
 
 GPU_NAMESPACE_BEGIN
 
-const uint kBrickLog2 = 4u;      // a brick has 16 cells along each axis
-const uint kBrickLeaves = 64u;   // leaves of a brick
-const uint kBrickWords = 128u;   // words of the masks of a brick's leaves
-const uint kMaskWords = 256u;    // those, and then those of mixed voxels
-const uint kItemColumns = 16u;   // columns of an item: at most one voxel of thin coverage each
-const uint kWholeBox = 16u;      // BrickItem: all of the triangle's box in the brick; less: the number of a tile
-const uint kItemTileShift = 27u; // of BrickItem::triangle
-const uint kBlockBricks = 8u;    // rows and columns of bricks in a block of a large triangle
-const uint kBlocksMax = 16384u;  // of a triangle: one thread lists them
-const uint kLargeGroup = 64u;    // threads of a workgroup of voxelize/bin_large
-const uint kListGroup = 64u;     // threads of a workgroup of voxelize/list_bricks
-const uint kListItems = 16u;     // table entries that a thread of it reads
-const uint kCoverGroup = 64u;    // threads of a workgroup of voxelize/cover
-const uint kBricksGroup = 64u;   // threads of a workgroup where one thread takes one brick
+const uint kBrickLog2 = 4u;        // a brick has 16 cells along each axis
+const uint kBrickLeaves = 64u;     // leaves of a brick
+const uint kLeafMaskWords = 128u;  // words of the masks of a brick's leaves
+const uint kBrickMaskWords = 256u; // those, and then those of mixed voxels
+const uint kItemColumns = 16u;     // columns of an item: at most one voxel of thin coverage each
+const uint kWholeBox = 16u;        // BrickItem: all of the triangle's box in the brick; less: the number of a tile
+const uint kItemTileShift = 27u;   // of BrickItem::triangle
+const uint kBlockBricks = 8u;      // rows and columns of bricks in a block of a large triangle
+const uint kBlocksMax = 16384u;    // of a triangle: one thread lists them
+const uint kLargeGroup = 64u;      // threads of a workgroup of voxelize/bin_large
+const uint kListGroup = 64u;       // threads of a workgroup of voxelize/list_bricks
+const uint kListItems = 16u;       // table entries that a thread of it reads
+const uint kItemsGroup = 64u;      // threads of a workgroup where one thread takes one item
+const uint kBricksGroup = 64u;     // threads of a workgroup where one thread takes one brick
 const int kBrickLatticeLog2 = kVoxelLatticeLog2 + int(kBrickLog2); // lattice units of a brick's edge
 
 /// A triangle that may have voxels, computed once for all that need it. Coordinates are those of voxelize/raster.glsl.
@@ -39,8 +39,6 @@ struct TriangleSetup
     uint flags; // voxelize/setup.glsl
 };
 GPU_BUFFER(TriangleSetup, 16);
-
-const uint kSetupWords = 16u; // 32-bit words of a TriangleSetup, and of a SurfaceSetup
 
 /// What the fragments of a triangle with a texture, or with colours of its vertices, need beside TriangleSetup.
 struct SurfaceSetup
@@ -117,7 +115,7 @@ struct BinCounters
 };
 GPU_BUFFER(BinCounters, 4);
 
-struct BinParams // push constants of voxelize/bin and voxelize/bin_large
+struct BinParams // push constants of voxelize/bin: a thread a triangle
 {
     GPU_CONST_PTR(SceneView) scene;
     GPU_CONST_PTR(Chunk) chunks;    // [chunk_count]
@@ -142,7 +140,23 @@ struct BinParams // push constants of voxelize/bin and voxelize/bin_large
     CONSTANT(2, uint, block_lanes, kBlockLanes, 1u) /* threads that share a block of a large triangle */               \
     CONSTANT(3, MaterialClass, material_class, kMaterialClass, kClassPlain)
 GPU_KERNEL(voxelize, bin, Bin, BinParams, VOXELIZE_BIN_CONSTANTS)
-GPU_KERNEL(voxelize, bin_large, BinLarge, BinParams, VOXELIZE_BIN_CONSTANTS)
+
+struct BinLargeParams // push constants of voxelize/bin_large: kBlockLanes threads a block
+{
+    GPU_CONST_PTR(TriangleSetup) setups; // [places]
+    GPU_CONST_PTR(LargeBlock) large;     // [large_capacity]
+    GPU_PTR(BrickEntry) bricks;          // [brick_mask + 1]
+    GPU_PTR(BrickItem) items;            // [item_capacity]
+    GPU_PTR(BinCounters) counters;       // [1]
+    uint window;
+    uint brick_mask;
+    uint large_capacity;
+    uint item_capacity;
+};
+#define VOXELIZE_BIN_LARGE_CONSTANTS(CONSTANT)                                                                         \
+    CONSTANT(0, bool, wide_keys, kWideKeys, false)                                                                     \
+    CONSTANT(1, uint, block_lanes, kBlockLanes, 1u)
+GPU_KERNEL(voxelize, bin_large, BinLarge, BinLargeParams, VOXELIZE_BIN_LARGE_CONSTANTS)
 
 struct ListBricksParams // push constants of voxelize/list_bricks
 {
@@ -165,7 +179,7 @@ struct CoverParams // push constants of voxelize/cover: a thread an item
     GPU_CONST_PTR(BrickEntry) bricks;
     GPU_CONST_PTR(BrickItem) items;
     GPU_PTR(ItemVoxels) voxels; // [items]
-    GPU_PTR(uint) masks;        // [kMaskWords] for each range
+    GPU_PTR(uint) masks;        // [kBrickMaskWords] for each range
     GPU_CONST_PTR(BinCounters) counters;
     uint window;
 };

@@ -11,8 +11,16 @@ layout(local_size_x = kBricksGroup) in;
 #extension GL_KHR_shader_subgroup_arithmetic : require
 #extension GL_KHR_shader_subgroup_ballot : require
 #include "lib/arrivals.glsl"
+#include "lib/bound.glsl"
 #include "lib/dispatch.glsl"
 #include "octree/nodes.glsl"
+
+#ifdef BOUND
+TEXELS_4(0, masks);
+#define MASK_WORDS(I) texelFetch(texels4_masks, int(I))
+#else
+#define MASK_WORDS(I) uvec4_ConstPtr(uint64_t(params.masks)).data[I]
+#endif
 
 const uint kBrickLanes = 8u; // threads that count a brick together
 
@@ -32,15 +40,15 @@ void countBrick(uint brick, uint slot)
     uvec2 leaves = uvec2(0u);
     uint voxels = 0u;
     uint mixed = 0u;
-    uvec4_ConstPtr masks = uvec4_ConstPtr(uint64_t(params.masks) + uint64_t(brick) * (4u * kMaskWords));
+    uint first = brick * (kBrickMaskWords / 4u);
     for (uint pair = gl_LocalInvocationIndex % kBrickLanes; pair < kBrickLeaves / 2u; pair += kBrickLanes)
     {
-        uvec4 words = masks.data[pair];
+        uvec4 words = MASK_WORDS(first + pair);
         uint found = ((words.x | words.y) != 0u ? 1u : 0u) | ((words.z | words.w) != 0u ? 2u : 0u);
         found <<= (2u * pair) & 31u;
         leaves |= pair < kBrickLeaves / 4u ? uvec2(found, 0u) : uvec2(0u, found);
         voxels += bitCounts(words);
-        mixed += bitCounts(masks.data[kBrickLeaves / 2u + pair]);
+        mixed += bitCounts(MASK_WORDS(first + kBrickLeaves / 2u + pair));
     }
     if (voxels != 0u)
     {

@@ -1,12 +1,12 @@
 #version 460
 // SPDX-License-Identifier: MIT
-// The voxels of the items, a thread an item, and the masks of the leaves of their bricks. Neighbours are items of one
-// brick, whose masks stay in a cache.
+// The voxels of the items, a thread an item, and the masks of the leaves of their bricks. Neighbours are mostly items of
+// one brick, whose masks stay in a cache.
 #extension GL_GOOGLE_include_directive : require
 #include "voxelize/bricks.h"
 
 GPU_ENTRY(CoverParams, VOXELIZE_COVER_CONSTANTS);
-layout(local_size_x = kCoverGroup) in;
+layout(local_size_x = kItemsGroup) in;
 
 const bool kEmits = false;
 const uint kMode = kModeCoverage;
@@ -48,7 +48,7 @@ void setVoxels(uint word, uint bits)
 {
     uint again = atomicOr(MASK_WORD(word), bits) & bits;
     if (again != 0u)
-        atomicOr(MASK_WORD(word + kBrickWords), again);
+        atomicOr(MASK_WORD(word + kLeafMaskWords), again);
 }
 
 void main()
@@ -64,8 +64,8 @@ void main()
     if (kMaterialClass == kClassAlpha)
         cutOut(item, setup, brick, voxels);
     params.voxels.data[i] = voxels;
-    // Neighbours mostly share a word.
-    uint first_word = entry.mask_lo * kMaskWords;
+    // Voxels of an item mostly share a word with the one before: their bits take one atomic.
+    uint first_word = entry.mask_lo * kBrickMaskWords;
     uint word = 0u;
     uint bits = 0u;
     for (ItemVoxels left = voxels; hasVoxels(left);)

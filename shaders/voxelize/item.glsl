@@ -68,7 +68,7 @@ const uint kAxisShift = 28u;
 const uint kMirrorUShift = 30u;
 const uint kMirrorVShift = 31u;
 
-// Of an item that may have no columns at all.
+// The voxels in the columns of t's box, which may be empty.
 ItemVoxels coverItem(RasterTriangle t)
 {
     ivec2 size = t.high.xy - t.low.xy + 1;
@@ -117,7 +117,7 @@ uvec3 voxelInColumn(ItemVoxels voxels, uint column)
     v ^= (voxels.info >> kMirrorVShift) != 0u ? 15u : 0u;
     uint w = ((column < 8u ? voxels.layers_lo : voxels.layers_hi) >> (kLayerBits * (column & 7u))) & 15u;
     uint axis = bitfieldExtract(voxels.info, int(kAxisShift), 2);
-    return axis == 0u ? uvec3(w, u, v) : (axis == 1u ? uvec3(v, w, u) : uvec3(u, v, w));
+    return uvec3(unpermuted(ivec3(u, v, w), axis));
 }
 
 // Takes the next voxel away from those of an item, which has one. Returns its place in the brick.
@@ -129,20 +129,6 @@ uvec3 takeVoxel(inout ItemVoxels voxels)
     return voxel;
 }
 
-// The number of the set bit of mask that has `rank` set bits of lower numbers.
-uint bitOfRank(uint mask, uint rank)
-{
-    uint place = 0u;
-    [[unroll]] for (uint size = kItemColumns / 2u; size > 0u; size /= 2u)
-    {
-        uint below = bitCount(bitfieldExtract(mask, int(place), int(size)));
-        bool beyond = rank >= below;
-        rank -= beyond ? below : 0u;
-        place += beyond ? size : 0u;
-    }
-    return place;
-}
-
 bool hasVoxels(ItemVoxels voxels)
 {
     return (voxels.info & kColumnsMask) != 0u;
@@ -151,8 +137,7 @@ bool hasVoxels(ItemVoxels voxels)
 // The barycentric edge functions of a triangle over the column of a voxel: component i belongs to vertex i.
 i64vec3 cornersAt(TriangleSetup setup, ivec3 voxel)
 {
-    ivec2 mirror = -ivec2(hasFlag(setup, kSetupMirrorU), hasFlag(setup, kSetupMirrorV));
-    ivec2 column = permuted(voxel, setup.flags & kSetupAxis).xy ^ mirror;
+    ivec2 column = permuted(voxel, setup.flags & kSetupAxis).xy ^ mirrorOf(setup);
     ivec3 to_u = column.x * kVoxelLattice + kVoxelLattice / 2 - setup.u;
     ivec3 to_v = column.y * kVoxelLattice + kVoxelLattice / 2 - setup.v;
     i64vec3 corners = (product(setup.u.yzx - setup.u, to_v) - product(setup.v.yzx - setup.v, to_u)).yzx;
@@ -162,8 +147,7 @@ i64vec3 cornersAt(TriangleSetup setup, ivec3 voxel)
 // The first voxel of a brick.
 ivec3 brickCorner(BrickEntry brick)
 {
-    uint level = uint(gridDepth() - 1) / 2u - 1u;
-    return ivec3(brickCell(keyOf(brick), level)) << int(kBrickLog2);
+    return ivec3(brickCell(keyOf(brick), brickLevel())) << int(kBrickLog2);
 }
 
 #endif

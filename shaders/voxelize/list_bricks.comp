@@ -58,11 +58,12 @@ void main()
                     atomicOr(params.counters.data[0].item_carry, 0u) == 0u &&
                     atomicOr(params.counters.data[0].wide_count, 0u) == 0u &&
                     atomicOr(params.counters.data[0].overflow_count, 0u) == 0u;
+        uint listed = fits ? bricks : 0u;
         uint items = fits ? atomicOr(params.counters.data[0].item_count, 0u) : 0u;
-        params.counters.data[0].listed_count = fits ? bricks : 0u;
+        params.counters.data[0].listed_count = listed;
         params.counters.data[0].covered_items = items;
-        params.counters.data[0].cover = foldedArgs((items + kCoverGroup - 1u) / kCoverGroup, params.max_groups_x);
-        params.counters.data[0].collect = foldedArgs((bricks + kBricksGroup - 1u) / kBricksGroup, params.max_groups_x);
+        params.counters.data[0].cover = foldedArgs((items + kItemsGroup - 1u) / kItemsGroup, params.max_groups_x);
+        params.counters.data[0].collect = foldedArgs((listed + kBricksGroup - 1u) / kBricksGroup, params.max_groups_x);
         atomicExchange(params.counters.data[0].arrived, 0u);
     }
 }

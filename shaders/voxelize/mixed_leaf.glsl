@@ -35,6 +35,11 @@ MixedVoxels loadMixedLeaf(uint i)
 }
 #endif
 
+bool isMixed(MixedVoxels mixed, uint cell)
+{
+    return ((cell < 32u ? mixed.mask_lo : mixed.mask_hi) >> (cell & 31u) & 1u) != 0u;
+}
+
 // The index of the sums of a mixed voxel.
 uint sumsIndex(MixedVoxels mixed, uint cell)
 {

@@ -102,6 +102,7 @@ ivec3 cornersOf(ivec3 vertices, int mirror, bool exchanged)
     return (corners ^ mirror) - mirror;
 }
 
+// RasterTriangle::layer_top, of which the other members are set.
 int topLayer(RasterTriangle t, int resolution)
 {
     return t.rise_u == 0 && t.rise_v == 0 ? resolution - 1 : kLatticeLimit;

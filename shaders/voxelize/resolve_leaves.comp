@@ -21,9 +21,11 @@ void main()
     if (threadIndex() >= params.leaf_count)
         return;
     MixedVoxels mixed = loadMixedLeaf(leaf);
+    uvec2 left = uvec2(mixed.mask_lo, mixed.mask_hi);
+    if ((left.x | left.y) == 0u)
+        return;
     Node node = loadLeaf(leaf);
     uint sums_index = mixed.first;
-    uvec2 left = uvec2(mixed.mask_lo, mixed.mask_hi);
     for (; (left.x | left.y) != 0u; ++sums_index)
     {
         bool low = left.x != 0u;

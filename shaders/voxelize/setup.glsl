@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The setups of triangles (TriangleSetup, SurfaceSetup), which voxelize/bin writes.
-// Needs GPU_ENTRY with params.setups and surfaces, and the macros of voxelize/raster.glsl, with EDGE_WIDE.
+// The setups of triangles, which voxelize/bin writes.
+// Needs params.setups, and the macros of voxelize/raster.glsl, with EDGE_WIDE.
+// SETUPS_BINDING (optional): the binding of params.setups in the kernel's bound form (lib/bound.glsl).
 #ifndef ZVO_SHADERS_VOXELIZE_SETUP_GLSL
 #define ZVO_SHADERS_VOXELIZE_SETUP_GLSL
 
@@ -13,24 +14,19 @@ const uint kSetupAxis = 3u;
 const uint kSetupMirrorU = 4u;
 const uint kSetupMirrorV = 8u;
 const uint kSetupExchanged = 16u;
-const uint kSetupKept = 32u;  // the triangle may have voxels
-const uint kSetupSmall = 64u; // and few columns
-const uint kSetupTextured = 128u;
-const uint kSetupColored = 256u;
-const uint kSetupWrapU = 9u; // 2 bits from this one on
-const uint kSetupWrapV = 11u;
+const uint kSetupTextured = 32u;
+const uint kSetupColored = 64u;
+const uint kSetupWrapU = 7u; // 2 bits from this one on
+const uint kSetupWrapV = 9u;
 
 #if defined(BOUND) && defined(SETUPS_BINDING)
 TEXELS_4(SETUPS_BINDING, setups);
-TEXELS_4(SETUPS_BINDING + 1, surfaces);
 #define SETUP_WORDS(I) texelFetch(texels4_setups, int(I))
-#define SURFACE_WORDS(I) texelFetch(texels4_surfaces, int(I))
 #else
 #define SETUP_WORDS(I) uvec4_ConstPtr(uint64_t(params.setups)).data[I]
-#define SURFACE_WORDS(I) uvec4_ConstPtr(uint64_t(params.surfaces)).data[I]
 #endif
 
-// Four words at a time: of the struct, compilers may load each alone.
+// Compilers may load a struct word by word.
 TriangleSetup loadSetup(uint i)
 {
     uvec4 a = SETUP_WORDS(4u * i);
@@ -40,15 +36,6 @@ TriangleSetup loadSetup(uint i)
     return TriangleSetup(ivec3(a.xyz), ivec3(a.w, b.xy), ivec3(b.zw, c.x), uvec4(c.yzw, d.x), d.y, d.z, d.w);
 }
 
-SurfaceSetup loadSurfaceSetup(uint i)
-{
-    uvec4 a = SURFACE_WORDS(4u * i);
-    uvec4 b = SURFACE_WORDS(4u * i + 1u);
-    uvec4 c = SURFACE_WORDS(4u * i + 2u);
-    uvec4 d = SURFACE_WORDS(4u * i + 3u);
-    return SurfaceSetup(ivec3(a.xyz), ivec3(a.w, b.xy), b.z, uvec4(b.w, c.xyz), uvec2(c.w, d.x), d.yzw);
-}
-
 bool hasFlag(TriangleSetup setup, uint flag)
 {
     return (setup.flags & flag) != 0u;
@@ -56,7 +43,7 @@ bool hasFlag(TriangleSetup setup, uint flag)
 
 uint pack16(int low, int high)
 {
-    return (uint(low) & 0xFFFFu) | (uint(high) << 16);
+    return bitfieldInsert(uint(low), uint(high), 16, 16);
 }
 
 int low16(uint word)
@@ -67,6 +54,12 @@ int low16(uint word)
 int high16(uint word)
 {
     return int(word) >> 16;
+}
+
+// -1 where u or v is mirrored, else 0.
+ivec2 mirrorOf(TriangleSetup setup)
+{
+    return -ivec2(hasFlag(setup, kSetupMirrorU), hasFlag(setup, kSetupMirrorV));
 }
 
 // The normals of the vertices.
@@ -81,8 +74,7 @@ void unpackNormals(TriangleSetup setup, out ivec3 normals[3])
 // The voxels of a triangle that are among the cells low to high, given in x, y, z.
 CellBox voxelBox(TriangleSetup setup, ivec3 low, ivec3 high)
 {
-    ivec2 mirror = -ivec2(hasFlag(setup, kSetupMirrorU), hasFlag(setup, kSetupMirrorV));
-    CellBox box = boxOf(setup.flags & kSetupAxis, mirror, low, high);
+    CellBox box = boxOf(setup.flags & kSetupAxis, mirrorOf(setup), low, high);
     ivec3 least = ivec3(min(setup.u.x, min(setup.u.y, setup.u.z)), min(setup.v.x, min(setup.v.y, setup.v.z)),
                         min(setup.w.x, min(setup.w.y, setup.w.z)));
     ivec3 most = ivec3(max(setup.u.x, max(setup.u.y, setup.u.z)), max(setup.v.x, max(setup.v.y, setup.v.z)),
@@ -101,7 +93,7 @@ RasterTriangle rasterTriangle(TriangleSetup setup, CellBox box, int resolution)
     t.v = setup.v;
     t.w = setup.w;
     t.axis = setup.flags & kSetupAxis;
-    t.mirror = -ivec2(hasFlag(setup, kSetupMirrorU), hasFlag(setup, kSetupMirrorV));
+    t.mirror = mirrorOf(setup);
     t.exchanged = hasFlag(setup, kSetupExchanged);
     t.edge_u = t.u.yzx - t.u;
     t.edge_v = t.v.yzx - t.v;

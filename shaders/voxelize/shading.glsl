@@ -30,7 +30,7 @@ struct Surface
     LinearTable linear_table; // of the texels' colours
     TriangleUvs uvs;
     TextureInfo texture;
-    uint level_number;
+    uint level_number;  // of level, in SceneView::levels
     TextureLevel level; // the level of detail that suits the triangle
     bool textured;
     TriangleUvs emission_uvs;

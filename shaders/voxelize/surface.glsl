@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The surface of a triangle, as its vertices and its material have it.
+// The surface of a triangle from its vertices, for kernels that walk triangles.
 // Needs what voxelize/shading.glsl and voxelize/vertex.glsl need.
 #ifndef ZVO_SHADERS_VOXELIZE_SURFACE_GLSL
 #define ZVO_SHADERS_VOXELIZE_SURFACE_GLSL

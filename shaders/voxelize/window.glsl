@@ -11,6 +11,12 @@ int gridDepth()
     return int(windowGridDepth(params.window));
 }
 
+// Level of the bricks of 16^3 cells among the nodes' levels.
+uint brickLevel()
+{
+    return uint(gridDepth() - 1) / 2u - 1u;
+}
+
 int gridResolution()
 {
     return 1 << gridDepth();

@@ -37,7 +37,7 @@ constexpr std::array<TuningRow, 8> kTable = {{
     {Tunable::RowColumns, "row-columns", "columns of a row block of a big triangle", 256, 16, kRowColumns},
     {Tunable::BandLanes, "band-lanes", "threads that share a band of a big triangle", 1, 16, kBandLanes},
     {Tunable::MixedSums, "mixed-sums", "sums of voxels with several fragments alone", 1, 0, kSwitches},
-    {Tunable::VoxelForm, "voxels", "voxelization by triangles, or by bricks; auto: of large ones", 0, 2, kVoxelForms},
+    {Tunable::VoxelForm, "voxels", "voxelization by triangles, or by bricks; auto: by area", 0, 2, kVoxelForms},
     {Tunable::PathForm, "path-form", "paths in stages, or whole in one kernel", 0, 1, kPathForms},
     {Tunable::SubgroupSize, vk::kSubgroupSizeName, "threads of a subgroup", 0, 0, kSubgroupSizes},
     {Tunable::Loads, vk::kLoadsName, "how kernels that have both forms reach their buffers", 0, 0, kLoads},

@@ -118,12 +118,13 @@ bool hasLargeTriangles(const GpuScene& scene, const Grid& grid)
 bool areBeyondBricks(const gpu::BinCounters& bins)
 {
     return bins.item_carry != 0 || bins.wide_count != 0 || bins.item_count > kIndicesMax ||
-           bins.brick_count > kIndicesMax / gpu::kMaskWords;
+           bins.brick_count > kIndicesMax / gpu::kBrickMaskWords;
 }
 
 bool haveRoom(const BrickCapacities& capacities, const vk::Device& device)
 {
-    return capacities.entries <= VoxelizeCapacities::kBricksMax && capacities.bytes() <= device.memory().roomBytes();
+    return capacities.entries <= VoxelizeCapacities::kBricksMax && capacities.bytes() <= device.memory().roomBytes() &&
+           capacities.largestBytes() <= device.report().max_buffer_bytes;
 }
 
 // The capacities that a run by bricks needs, as far as it tells.
@@ -508,19 +509,31 @@ void OctreeBuilder::learnBricks()
     octree.nodes = {m_device, "octree/nodes", octree.node_count};
     m_item_count = bins.item_count;
     m_mixed_count = bins.mixed_count;
-    m_bricks->bricks.mixed = {m_device, "voxelize/mixed_voxels", bins.leaf_count};
     m_step = {&OctreeBuilder::numberBricks, &OctreeBuilder::endBrickNumbers};
 }
 
 void OctreeBuilder::numberBricks(vk::FrameGraph& graph)
 {
+    const std::uint32_t leaf_count = m_result.octree.levels.back().node_count;
+    if (m_bricks->bricks.mixed.count() == 0)
+    {
+        m_device.memory().require(leaf_count * sizeof(gpu::MixedVoxels), "the leaves of bricks");
+        m_bricks->bricks.mixed = {m_device, "voxelize/mixed_voxels", leaf_count};
+    }
+    prepareLeaves(m_device, m_tile.grid);
     numberNodes(graph, m_bricks->bricks.table, m_bricks->work, m_result.octree, m_result.octree.levels.size() - 1);
     placeLeaves(graph, m_tile.grid, m_bricks->bricks, m_bricks->work.items, m_result.octree);
 }
 
 void OctreeBuilder::endBrickNumbers()
 {
-    m_bricks->bricks.masks = {};
+    BrickBuffers& bricks = m_bricks->bricks;
+    bricks.masks = {};
+    bricks.ranges = {};
+    bricks.order = {};
+    bricks.work_bricks = {};
+    bricks.large = {};
+    m_bricks->work.items = {};
     m_step = {&OctreeBuilder::brickAttributes, &OctreeBuilder::learnBrickAttributes};
 }
 

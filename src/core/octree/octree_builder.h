@@ -134,7 +134,7 @@ private:
     std::optional<Coverings> m_coverings;
     std::optional<AttributeBuffers> m_sums;
     BrickCapacities m_brick_capacities;
-    std::uint32_t m_item_count = 0; // of bricks
+    std::uint32_t m_item_count = 0; // of all bricks
     std::optional<Bricks> m_bricks;
     std::uint32_t m_emissive_count = 0;
     vk::BufferOf<gpu::Node> m_pool; // takes the place of the nodes in the end

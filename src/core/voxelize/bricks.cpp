@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cassert>
 #include <cmath>
 
 namespace zvo
@@ -18,11 +19,11 @@ namespace
 {
 
 constexpr std::uint64_t kCapacityMin = 1024;
-constexpr std::uint64_t kCapacityGuessMax = 1 << 21;
+constexpr std::uint64_t kCapacityGuessMax = 1 << 20; // the area may lie outside of the grid, for the most part
 constexpr std::uint64_t kItemsMin = 1 << 14;
 constexpr std::uint64_t kItemsGuessMax = 1 << 25;
 
-// The class that all materials of a scene belong to.
+// The highest class of a scene, whose kernels serve the others.
 MaterialClass classOf(const GpuScene& scene)
 {
     for (const MaterialClass material_class : {MaterialClass::Alpha, MaterialClass::Textured})
@@ -35,7 +36,7 @@ MaterialClass classOf(const GpuScene& scene)
     return MaterialClass::Plain;
 }
 
-// The setups of all triangles of a scene.
+// The places of setups: those of whole chunks may be empty.
 std::uint64_t setupCount(const GpuScene& scene)
 {
     std::uint64_t count = 0;
@@ -52,27 +53,11 @@ std::uint64_t surfaceCount(const GpuScene& scene)
     return classOf(scene) != MaterialClass::Plain || scene.colors.count() != 0 ? setupCount(scene) : 0;
 }
 
-gpu::BinParams binParams(vk::AnyPass& pass, const BrickJob& job)
-{
-    BrickBuffers& buffers = job.buffers;
-    gpu::BinParams params{};
-    params.scene = job.scene.read(pass);
-    params.bricks = pass.accumulate(buffers.table);
-    params.items = pass.accumulate(buffers.items);
-    params.counters = pass.readWrite(buffers.counters);
-    params.origin = job.tile.grid.origin;
-    params.lattice_scale = latticeScale(job.tile.grid);
-    params.window = gpu::packWindow(job.tile.grid.depth, job.tile.depth, job.tile.index);
-    params.brick_mask = static_cast<std::uint32_t>(buffers.table.count() - 1);
-    params.large_capacity = static_cast<std::uint32_t>(buffers.large.count());
-    params.item_capacity = static_cast<std::uint32_t>(buffers.items.count());
-    return params;
-}
-
 // first_setup: of these chunks. Returns that of the next ones.
 std::uint32_t binChunks(vk::FrameGraph& graph, const BrickJob& job, const vk::BufferOf<gpu::Chunk>& chunks, bool single,
                         MaterialClass material_class, std::uint32_t first_setup)
 {
+    assert(job.scene.uploaded().texture_grid.value_or(job.tile.grid) == job.tile.grid);
     const std::uint64_t triangles = single ? chunks.count() : chunks.count() * gpu::kChunkTriangles;
     if (triangles == 0)
     {
@@ -83,13 +68,24 @@ std::uint32_t binChunks(vk::FrameGraph& graph, const BrickJob& job, const vk::Bu
                                                      .block_lanes = tunedValue(graph.device(), Tunable::BandLanes),
                                                      .material_class = material_class});
     readColorTables(pass, job.scene.uploaded());
-    gpu::BinParams params = binParams(pass, job);
-    params.setups = pass.accumulate(job.buffers.setups);
-    params.surfaces = pass.accumulate(job.buffers.surfaces);
-    params.large = pass.accumulate(job.buffers.large);
+    BrickBuffers& buffers = job.buffers;
+    gpu::BinParams params{};
+    params.scene = job.scene.read(pass);
     params.chunks = pass.read(chunks);
+    params.setups = pass.accumulate(buffers.setups); // each element once, in any order
+    params.surfaces = pass.accumulate(buffers.surfaces);
+    params.bricks = pass.accumulate(buffers.table);
+    params.items = pass.accumulate(buffers.items);
+    params.large = pass.accumulate(buffers.large);
+    params.counters = pass.readWrite(buffers.counters);
+    params.origin = job.tile.grid.origin;
+    params.lattice_scale = latticeScale(job.tile.grid);
+    params.window = gpu::packWindow(job.tile.grid.depth, job.tile.depth, job.tile.index);
+    params.brick_mask = static_cast<std::uint32_t>(buffers.table.count() - 1);
     params.chunk_count = static_cast<std::uint32_t>(chunks.count());
     params.first_setup = first_setup;
+    params.large_capacity = static_cast<std::uint32_t>(buffers.large.count());
+    params.item_capacity = static_cast<std::uint32_t>(buffers.items.count());
     pass.dispatch(triangles, params);
     return first_setup + static_cast<std::uint32_t>(triangles);
 }
@@ -97,20 +93,27 @@ std::uint32_t binChunks(vk::FrameGraph& graph, const BrickJob& job, const vk::Bu
 void binAll(vk::FrameGraph& graph, const BrickJob& job)
 {
     std::uint32_t first_setup = 0;
-    for (const MaterialClass material_class : {MaterialClass::Plain, MaterialClass::Textured, MaterialClass::Alpha})
+    for (const MaterialClass material_class : kMaterialClasses)
     {
         const TriangleChunks& chunks = job.scene.uploaded().chunksOf(material_class);
         first_setup = binChunks(graph, job, chunks.whole, false, material_class, first_setup);
         first_setup = binChunks(graph, job, chunks.single, true, material_class, first_setup);
     }
     const std::uint32_t lanes = tunedValue(graph.device(), Tunable::BandLanes);
+    BrickBuffers& buffers = job.buffers;
     vk::Pass pass =
         graph.addPass(gpu::voxelize::BinLarge{.wide_keys = hasWideKeys(job.tile.grid), .block_lanes = lanes});
-    gpu::BinParams params = binParams(pass, job);
-    params.setups = {pass.read(job.buffers.setups).address};
-    params.large = {pass.read(job.buffers.large).address};
-    pass.dispatchIndirect(job.buffers.counters, &gpu::BinCounters::large, params,
-                          divideUp(job.buffers.large.count() * lanes, gpu::kLargeGroup));
+    pass.dispatchIndirect(buffers.counters, &gpu::BinCounters::large,
+                          {.setups = pass.read(buffers.setups),
+                           .large = pass.read(buffers.large),
+                           .bricks = pass.accumulate(buffers.table),
+                           .items = pass.accumulate(buffers.items), // each element once, in any order
+                           .counters = pass.readWrite(buffers.counters),
+                           .window = gpu::packWindow(job.tile.grid.depth, job.tile.depth, job.tile.index),
+                           .brick_mask = static_cast<std::uint32_t>(buffers.table.count() - 1),
+                           .large_capacity = static_cast<std::uint32_t>(buffers.large.count()),
+                           .item_capacity = static_cast<std::uint32_t>(buffers.items.count())},
+                          divideUp(buffers.large.count() * lanes, gpu::kLargeGroup));
 }
 
 template <typename Kernel>
@@ -163,7 +166,13 @@ std::uint64_t BrickCapacities::bytes() const
     return entries * (sizeof(gpu::BrickEntry) + sizeof(gpu::WorkItem)) + setups * sizeof(gpu::TriangleSetup) +
            surfaces * sizeof(gpu::SurfaceSetup) + items * (sizeof(gpu::BrickItem) + sizeof(gpu::ItemVoxels)) +
            large * sizeof(gpu::LargeBlock) +
-           bricks * (sizeof(gpu::BrickRange) + 2 * sizeof(gpu::uint) + gpu::kMaskWords * sizeof(gpu::uint));
+           bricks * (sizeof(gpu::BrickRange) + 2 * sizeof(gpu::uint) + gpu::kBrickMaskWords * sizeof(gpu::uint));
+}
+
+std::uint64_t BrickCapacities::largestBytes() const
+{
+    return std::max({entries * sizeof(gpu::BrickEntry), setups * sizeof(gpu::TriangleSetup),
+                     items * sizeof(gpu::ItemVoxels), bricks * gpu::kBrickMaskWords * sizeof(gpu::uint)});
 }
 
 BrickBuffers::BrickBuffers(vk::Device& device, const BrickCapacities& capacities)
@@ -171,7 +180,7 @@ BrickBuffers::BrickBuffers(vk::Device& device, const BrickCapacities& capacities
       table(device, "voxelize/bricks", capacities.entries), ranges(device, "voxelize/brick_ranges", capacities.bricks),
       items(device, "voxelize/items", capacities.items), voxels(device, "voxelize/item_voxels", capacities.items),
       large(device, "voxelize/large_blocks", capacities.large),
-      masks(device, "voxelize/brick_masks", capacities.bricks * gpu::kMaskWords),
+      masks(device, "voxelize/brick_masks", capacities.bricks * gpu::kBrickMaskWords),
       counters(device, "voxelize/bin_counters", 1), nodes(device, "voxelize/brick_counters", 1),
       work_bricks(device, "voxelize/work_bricks", capacities.bricks),
       order(device, "voxelize/brick_order", capacities.bricks),
@@ -221,7 +230,16 @@ void coverBricks(vk::FrameGraph& graph, const BrickJob& job)
                            .masks = pass.readWrite(buffers.masks),
                            .counters = pass.read(buffers.counters),
                            .window = gpu::packWindow(job.tile.grid.depth, job.tile.depth, job.tile.index)},
-                          divideUp(buffers.items.count(), gpu::kCoverGroup));
+                          divideUp(buffers.items.count(), gpu::kItemsGroup));
+}
+
+void prepareLeaves(vk::Device& device, const Grid& grid)
+{
+    vk::KernelCache& kernels = device.kernels();
+    kernels.get(gpu::voxelize::PlaceBricks{.wide_keys = hasWideKeys(grid)});
+    kernels.get(gpu::octree::Scan{});
+    kernels.get(gpu::voxelize::BrickBases{});
+    kernels.get(gpu::voxelize::BrickLeaves{.wide_keys = hasWideKeys(grid)});
 }
 
 void placeLeaves(vk::FrameGraph& graph, const Grid& grid, BrickBuffers& buffers,
@@ -290,7 +308,7 @@ void shadeBricks(vk::FrameGraph& graph, const BrickJob& job, std::uint32_t item_
                                .nodes = pass.read(octree.nodes),
                                .mixed = pass.read(buffers.mixed),
                                .sums = pass.read(attributes.sums),
-                               .attributes = pass.accumulate(octree.voxel_attributes),
+                               .attributes = pass.readWrite(octree.voxel_attributes),
                                .max_fragments = pass.readWrite(attributes.max_fragments),
                                .first_leaf = first_leaf,
                                .leaf_count = leaf_count,
