@@ -101,6 +101,8 @@ public:
             return sumMs(build());
         case Tunable::PathForm:
             return sumMs(paths());
+        case Tunable::BeamLanes:
+            return msOf(picture(), {"trace/beam"});
         case Tunable::SubgroupSize:
         case Tunable::Loads:
             return sumMs(build()) + sumMs(picture()) + sumMs(paths());
@@ -181,6 +183,8 @@ bool canHave(const vk::Device& device, Tunable tunable, std::uint32_t value)
     {
     case Tunable::NodeLanes:
         return value <= lanesMax(device);
+    case Tunable::BeamLanes:
+        return value <= beamLanesMax(device);
     case Tunable::BandLanes:
         return value * tunedValue(device, Tunable::RowColumns) >= RowShape::kProductMin;
     case Tunable::SubgroupSize:

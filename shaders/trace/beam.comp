@@ -4,6 +4,7 @@
 // the tile can be in. So the picture is the same, bit for bit.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_KHR_shader_subgroup_ballot : require
+#extension GL_KHR_shader_subgroup_shuffle : require
 #include "trace/beam.h"
 
 GPU_ENTRY(BeamParams, TRACE_BEAM_CONSTANTS);
@@ -56,21 +57,23 @@ float tileStart(uvec2 tile)
 }
 
 // The tile of a thread, or one outside. Consecutive blocks are far apart, so that all parts of the live list take
-// equally long.
+// equally long. With lanes, as many workgroups share a block.
 uvec2 tileOfThread(uvec2 tiles)
 {
+    uint thread = kLanes == 1u ? gl_LocalInvocationIndex : gl_SubgroupID * gl_SubgroupSize + gl_SubgroupInvocationID;
+    uint number = workgroupIndex() % kLanes * (kBlockTiles / kLanes) + thread / kLanes; // in its block
     uvec2 blocks = (tiles + kBlockEdge - 1u) / kBlockEdge;
     uint count = blocks.x * blocks.y;
-    uint block = uint(uint64_t(workgroupIndex()) * params.block_stride % count);
-    uvec2 tile = kBlockEdge * uvec2(block % blocks.x, block / blocks.x) + pixelInTile(gl_LocalInvocationIndex);
-    return workgroupIndex() < count ? tile : tiles;
+    uint block = uint(uint64_t(workgroupIndex() / kLanes) * params.block_stride % count);
+    uvec2 tile = kBlockEdge * uvec2(block % blocks.x, block / blocks.x) + pixelInTile(number);
+    return workgroupIndex() / kLanes < count ? tile : tiles;
 }
 
 void main()
 {
     uvec2 tiles = (uvec2(params.width, params.height) + kTileEdge - 1u) / kTileEdge;
     uvec2 tile = tileOfThread(tiles);
-    bool inside = all(lessThan(tile, tiles));
+    bool inside = all(lessThan(tile, tiles)) && laneOfBeam() == 0u; // the first of its lanes writes
     float start = kEmpty ? kTileDead : kBeam ? tileStart(tile) : kTraceTimeMin;
     if (inside)
         params.starts.data[tile.y * tiles.x + tile.x] = start;

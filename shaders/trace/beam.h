@@ -9,7 +9,7 @@ GPU_NAMESPACE_BEGIN
 
 const uint kBeamIterationsMax = 1024u; // after these, a beam ends at nodes of any size
 
-struct BeamParams // push constants of trace/beam: one thread a tile
+struct BeamParams // push constants of trace/beam: kLanes threads a tile
 {
     GPU_CONST_PTR(Node) nodes;
     GPU_PTR(float) starts; // [tiles] row by row: where its rays may start, or kTileDead
@@ -28,7 +28,8 @@ struct BeamParams // push constants of trace/beam: one thread a tile
     CONSTANT(2, uint, iterations_max, kIterationsMax, kBeamIterationsMax)                                              \
     CONSTANT(3, bool, orthographic, kOrthographic, false)                                                              \
     CONSTANT(4, bool, beam, kBeam, true)    /* false: every tile lives from kTraceTimeMin on */                        \
-    CONSTANT(5, bool, empty, kEmpty, false) /* every tile is dead */
+    CONSTANT(5, bool, empty, kEmpty, false) /* every tile is dead */                                                   \
+    CONSTANT(6, uint, lanes, kLanes, 1u)    /* threads that share a beam, a power of two up to 16 */
 GPU_KERNEL(trace, beam, Beam, BeamParams, TRACE_BEAM_CONSTANTS)
 
 GPU_NAMESPACE_END

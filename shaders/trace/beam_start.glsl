@@ -17,8 +17,12 @@
 // rays enter a kd-tree. S. Laine, T. Karras, Efficient Sparse Voxel Octrees, 2010, find times in an octree by a coarse
 // picture, and may miss what falls between its rays.
 //
-// Needs the constants kNodeLevels, kEntriesPerWord and kIterationsMax: after as many iterations, children of any size
-// count as small.
+// Lanes. A thread takes a beam or, on devices with threads to spare, several do: its lanes, which stand side by side in
+// a subgroup. Each takes a part of a node's children, consecutive ones, and notes those alone. In each iteration they
+// agree on the time, and on the next child, so that the way is the same for any number of lanes.
+//
+// Needs the constants kNodeLevels, kEntriesPerWord, kLanes and kIterationsMax: after as many iterations, children of any
+// size count as small.
 #ifndef ZVO_SHADERS_TRACE_BEAM_START_GLSL
 #define ZVO_SHADERS_TRACE_BEAM_START_GLSL
 
@@ -37,17 +41,41 @@ struct Beam // inverse directions may have any sign, but are finite and not 0
     vec2 small;        // cells are small whose edge is at most max(small.x * t, small.y) when the beam has left their node
 };
 
-struct MetChildren // of a node
+struct MetChildren // of a lane's part of a node
 {
     uvec2 children; // a bit each
     float first;    // when the beam meets the first one; kTraceTimeMax: there is none
     float last;     // when it has left the node
 };
 
-uint g_nodes[kNodeLevelsMax];     // the current node and those above it, by level
-uvec2 g_children[kNodeLevelsMax]; // of these, still to be taken
+const uint kPart = 64u / kLanes; // children of a lane
+// Layers of cells along each axis that they lie in.
+const uvec3 kLayers = uvec3(kLanes <= 4u ? 4u : 2u, kLanes <= 2u ? 4u : 2u, kLanes == 1u ? 4u : kLanes <= 8u ? 2u : 1u);
 
-// The intervals in which the beam is between the planes of each of the four layers of cells of a node along an axis.
+uint g_nodes[kNodeLevelsMax]; // the current node and those above it, by level
+uint g_lower[kNodeLevelsMax]; // of the lane's parts of these, children still to be taken
+uint g_upper[kNodeLevelsMax]; // likewise, from the 32nd child of a part on
+
+uint laneOfBeam()
+{
+    return gl_SubgroupInvocationID & (kLanes - 1u);
+}
+
+// The least value of a beam's lanes.
+uint leastOfLanes(uint value)
+{
+    if (kLanes > 1u)
+        value = min(value, subgroupShuffleXor(value, 1u));
+    if (kLanes > 2u)
+        value = min(value, subgroupShuffleXor(value, 2u));
+    if (kLanes > 4u)
+        value = min(value, subgroupShuffleXor(value, 4u));
+    if (kLanes > 8u)
+        value = min(value, subgroupShuffleXor(value, 8u));
+    return value;
+}
+
+// The intervals in which the beam is between the planes of each of four layers of cells along an axis.
 void meetLayers(uint corner, uint size, float fast_origin, float slow_origin, float fast_inverse, float slow_inverse,
                 out vec4 enter, out vec4 leave)
 {
@@ -62,18 +90,27 @@ void meetLayers(uint corner, uint size, float fast_origin, float slow_origin, fl
     leave = both_ways ? vec4(kTraceTimeMax) : slow;
 }
 
-// The children of a node that the beam meets until a time. mask: those that exist.
-MetChildren meetChildren(Beam beam, uvec3 corner, uint size, uvec2 mask, float until)
+void meetAllLayers(Beam beam, uvec3 corner, uint size, out vec4 enter_x, out vec4 enter_y, out vec4 enter_z,
+                   out vec4 leave_x, out vec4 leave_y, out vec4 leave_z)
 {
-    vec4 enter_x, enter_y, enter_z, leave_x, leave_y, leave_z;
     meetLayers(corner.x, size, beam.fast_origin.x, beam.slow_origin.x, beam.fast_inverse.x, beam.slow_inverse.x,
                enter_x, leave_x);
     meetLayers(corner.y, size, beam.fast_origin.y, beam.slow_origin.y, beam.fast_inverse.y, beam.slow_inverse.y,
                enter_y, leave_y);
     meetLayers(corner.z, size, beam.fast_origin.z, beam.slow_origin.z, beam.fast_inverse.z, beam.slow_inverse.z,
                enter_z, leave_z);
+}
+
+// The children of the lane's part of a node that the beam meets until a time. mask: those that exist.
+MetChildren meetChildren(Beam beam, uvec3 corner, uint size, uvec2 mask, float until)
+{
+    vec4 enter_x, enter_y, enter_z, leave_x, leave_y, leave_z;
+    meetAllLayers(beam, corner, size, enter_x, enter_y, enter_z, leave_x, leave_y, leave_z);
     MetChildren met;
     met.last = min(min(max(leave_x.x, leave_x.w), max(leave_y.x, leave_y.w)), max(leave_z.x, leave_z.w));
+    if (kLanes != 1u)
+        meetAllLayers(beam, corner + size * cellNumbered(laneOfBeam() * kPart), size, enter_x, enter_y, enter_z,
+                      leave_x, leave_y, leave_z);
     enter_z = max(enter_z, kTraceTimeMin);
     leave_z = min(leave_z, until);
     uvec2 children = uvec2(0u);
@@ -82,11 +119,13 @@ MetChildren meetChildren(Beam beam, uvec3 corner, uint size, uvec2 mask, float u
     {
         uint x = i & 3u;
         uint y = i >> 2;
+        if (x >= kLayers.x || y >= kLayers.y)
+            continue;
         uint c = cellInBlock(uvec3(x, y, 0u)); // then c + 4, c + 32 and c + 36 along z
         vec4 enter = max(enter_z, max(enter_x[x], enter_y[y]));
         vec4 leave = min(leave_z, min(leave_x[x], leave_y[y]));
         bvec4 meets = lessThanEqual(enter, leave);
-        uvec4 bits = mix(uvec4(0u), uvec4(1u, 16u, 1u, 16u) << c, meets) & mask.xxyy;
+        uvec4 bits = mix(uvec4(0u), uvec4(1u, kLayers.z > 1u ? 16u : 0u, 1u, 16u) << c, meets) & mask.xxyy;
         children |= bits.xz | bits.yw;
         first = min(first, mix(vec4(kTraceTimeMax), enter, notEqual(bits, uvec4(0u))));
     }
@@ -95,15 +134,17 @@ MetChildren meetChildren(Beam beam, uvec3 corner, uint size, uvec2 mask, float u
     return met;
 }
 
-// The first of some children. mirror: the bits of a child's number that count backwards.
+// The first of some children of a part. mirror: the bits of a child's number that count backwards.
 uint firstChild(uvec2 children, uint mirror)
 {
     bool upper_first = (mirror & 32u) != 0u;
-    bool upper = upper_first ? children.y != 0u : children.x == 0u;
+    bool upper = kLanes == 1u && (upper_first ? children.y != 0u : children.x == 0u);
     uint bits = upper ? children.y : children.x;
     uint child = upper ? 32u : 0u;
     [[unroll]] for (uint step = 16u; step != 0u; step >>= 1)
     {
+        if (step >= kPart)
+            continue;
         uint low = bits & ((1u << step) - 1u);
         uint high = bits >> step;
         bool take_high = (mirror & step) != 0u ? high != 0u : low == 0u;
@@ -113,12 +154,31 @@ uint firstChild(uvec2 children, uint mirror)
     return child;
 }
 
+// Which children of the lane's part of a node exist.
+uvec2 loadPart(uint node)
+{
+    bool is_word = isLeafWord(node);
+    if (kLanes != 1u)
+    {
+        uint first = laneOfBeam() * kPart;
+        uvec2 half_node = loadHalf(is_word ? leafWord(node) : 2u * node + first / 32u);
+        uint bits = is_word && first >= 32u ? half_node.y : half_node.x;
+        return uvec2(bitfieldExtract(bits, int(first % 32u), int(kPart)), 0u);
+    }
+    uvec2 lower = loadHalf(is_word ? leafWord(node) : 2u * node);
+    uvec2 upper = loadHalf(is_word ? leafWord(node) : 2u * node + 1u);
+    return uvec2(lower.x, is_word ? upper.y : upper.x);
+}
+
 // The time at which the beam meets the first occupied cell; kTraceTimeMax if it meets none. mirror: as of firstChild(),
 // for the middle ray; the result does not depend on it.
 float beamStart(Beam beam, uint mirror)
 {
     [[unroll]] for (uint k = 0u; k < kNodeLevels - 1u; ++k)
-        g_children[k] = uvec2(0u);
+    {
+        g_lower[k] = 0u;
+        g_upper[k] = 0u;
+    }
     uvec3 corner = uvec3(floatBitsToUint(1.0));
     uint level = 0u;
     uint node = 0u;
@@ -128,15 +188,13 @@ float beamStart(Beam beam, uint mirror)
     {
         ++iterations;
         uint size = 1u << (kRootShift - 2u * level);
-        bool is_word = isLeafWord(node);
-        uvec2 lower = loadHalf(is_word ? leafWord(node) : 2u * node);
-        uvec2 upper = loadHalf(is_word ? leafWord(node) : 2u * node + 1u);
-        uvec2 mask = uvec2(lower.x, is_word ? upper.y : upper.x);
+        uvec2 mask = loadPart(node);
         MetChildren met = meetChildren(beam, corner, size, mask, start);
         // A ray that stops at cells of this size, for a level of detail, does so before the beam has left the node.
         bool ends = level + 1u == kNodeLevels || iterations >= kIterationsMax ||
                     edgeOf(size) <= max(beam.small.x * met.last, beam.small.y);
-        start = ends ? min(start, met.first) : start;
+        float first = uintBitsToFloat(leastOfLanes(floatBitsToUint(met.first))); // times are not negative
+        start = ends ? min(start, first) : start;
 
         // Note the children, and find the deepest node that has any.
         uint parent_level = 0u;
@@ -145,19 +203,40 @@ float beamStart(Beam beam, uint mirror)
         [[unroll]] for (uint k = 0u; k < kNodeLevels - 1u; ++k)
         {
             g_nodes[k] = level == k ? node : g_nodes[k];
-            g_children[k] = level == k && !ends ? met.children : g_children[k];
-            bool any = (g_children[k].x | g_children[k].y) != 0u;
+            bool notes = level == k && !ends;
+            g_lower[k] = notes ? met.children.x : g_lower[k];
+            if (kLanes == 1u)
+                g_upper[k] = notes ? met.children.y : g_upper[k];
+            bool any = (g_lower[k] | g_upper[k]) != 0u;
             parent_level = any ? k : parent_level;
             parent = any ? g_nodes[k] : parent;
-            children = any ? g_children[k] : children;
+            children = any ? uvec2(g_lower[k], g_upper[k]) : children;
         }
         go = (children.x | children.y) != 0u;
 
         // Go to its next child.
         uint child = firstChild(children, mirror);
-        uvec2 taken = child < 32u ? uvec2(1u << child, 0u) : uvec2(0u, 1u << (child & 31u));
+        uvec2 left = children & ~(child < 32u ? uvec2(1u << child, 0u) : uvec2(0u, 1u << (child & 31u)));
+        uint own_level = parent_level;
+        if (kLanes != 1u)
+        {
+            // The deepest node comes first, then its children by their place on the middle ray's way.
+            child += laneOfBeam() * kPart;
+            uint own = go ? (kNodeLevels - own_level) * 64u + (child ^ mirror) : ~0u;
+            uint taken = leastOfLanes(own);
+            left = own == taken ? left : children;
+            go = taken != ~0u;
+            child = (taken & 63u) ^ mirror;
+            parent_level = kNodeLevels - (taken >> 6);
+            [[unroll]] for (uint k = 0u; k < kNodeLevels - 1u; ++k)
+                parent = parent_level == k ? g_nodes[k] : parent;
+        }
         [[unroll]] for (uint k = 0u; k < kNodeLevels - 1u; ++k)
-            g_children[k] = parent_level == k ? children & ~taken : g_children[k];
+        {
+            g_lower[k] = own_level == k ? left.x : g_lower[k];
+            if (kLanes == 1u)
+                g_upper[k] = own_level == k ? left.y : g_upper[k];
+        }
         uvec2 half_node = loadHalf(2u * parent + (child >> 5));
         node = half_node.y + bitCount(half_node.x & ((1u << (child & 31u)) - 1u));
         if (kEntriesPerWord != 0u)

@@ -30,6 +30,7 @@ constexpr SubgroupOperation kSubgroupOperations[] = {
     {"subgroup basic operations", VK_SUBGROUP_FEATURE_BASIC_BIT},
     {"subgroup arithmetic", VK_SUBGROUP_FEATURE_ARITHMETIC_BIT},
     {"subgroup ballot", VK_SUBGROUP_FEATURE_BALLOT_BIT},
+    {"subgroup shuffle", VK_SUBGROUP_FEATURE_SHUFFLE_BIT},
 };
 
 std::string versionText(std::uint32_t version)

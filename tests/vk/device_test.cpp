@@ -79,9 +79,10 @@ TEST(Query, ListsEveryReasonOfADeviceThatLacksEverything)
     {
         reasons += reason + "\n";
     }
-    for (const char* needed : {"Vulkan 1.1", "compute queue", "shaderInt64", "bufferDeviceAddress", "scalarBlockLayout",
-                               "synchronization2", "maintenance4", "subgroup basic", "subgroup arithmetic",
-                               "subgroup ballot", "maxPushConstantsSize", "maxComputeWorkGroupInvocations"})
+    for (const char* needed :
+         {"Vulkan 1.1", "compute queue", "shaderInt64", "bufferDeviceAddress", "scalarBlockLayout", "synchronization2",
+          "maintenance4", "subgroup basic", "subgroup arithmetic", "subgroup ballot", "subgroup shuffle",
+          "maxPushConstantsSize", "maxComputeWorkGroupInvocations"})
     {
         EXPECT_TRUE(contains(reasons, needed)) << needed << " is not among:\n" << reasons;
     }

@@ -32,4 +32,16 @@ std::uint32_t loneGroupOn(const vk::Device& device)
     return kLoneNodes * lanesOn(device);
 }
 
+std::uint32_t beamLanesMax(const vk::Device& device)
+{
+    const vk::DeviceReport& report = device.report();
+    const bool varies = device.requiredSubgroupSize() == 0 && report.min_subgroup_size != 0;
+    return std::bit_floor(varies ? report.min_subgroup_size : report.subgroup_size);
+}
+
+std::uint32_t beamLanesOn(const vk::Device& device)
+{
+    return std::min(tunedValue(device, Tunable::BeamLanes), beamLanesMax(device));
+}
+
 } // namespace zvo

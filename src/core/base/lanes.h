@@ -24,4 +24,10 @@ inline constexpr std::uint32_t kLoneNodes = 64;
 /// Threads of a workgroup that has a dispatch to itself: lanesOn() for each of kLoneNodes.
 std::uint32_t loneGroupOn(const vk::Device& device);
 
+/// The most threads that can share a beam on this device: those of its smallest subgroup.
+std::uint32_t beamLanesMax(const vk::Device& device);
+
+/// Threads that share a beam of trace/beam, a power of two: Tunable::BeamLanes, as far as the device allows.
+std::uint32_t beamLanesOn(const vk::Device& device);
+
 } // namespace zvo

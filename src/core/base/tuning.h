@@ -23,6 +23,7 @@ enum class Tunable : std::uint8_t
     MixedSums,
     VoxelForm,
     PathForm,
+    BeamLanes,
     SubgroupSize,
     Loads
 };

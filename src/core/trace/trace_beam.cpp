@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "core/trace/trace_beam.h"
 
+#include "core/base/lanes.h"
 #include "core/trace/trace_passes.h"
 #include "trace/beam.h"
 
@@ -33,14 +34,16 @@ void traceBeam(vk::FrameGraph& graph, const DeviceTree& tree, const TraceCamera&
     graph.fill(buffers.args, 0);
     graph.fill(buffers.status, 0);
     const PictureTiles tiles(buffers);
+    const std::uint32_t lanes = beamLanesOn(graph.device());
     const std::uint32_t iterations_max = std::min(options.iterations_max, gpu::kBeamIterationsMax);
     vk::Pass pass = graph.addPass(gpu::trace::Beam{.node_levels = tree.grid.nodeLevels(),
                                                    .entries_per_word = tree.entriesPerWord(),
                                                    .iterations_max = iterations_max,
                                                    .orthographic = camera.orthographic,
                                                    .beam = options.beam,
-                                                   .empty = isEmpty(tree)});
-    pass.dispatch(tiles.blocks * gpu::kBlockTiles,
+                                                   .empty = isEmpty(tree),
+                                                   .lanes = lanes});
+    pass.dispatch(tiles.blocks * gpu::kBlockTiles * lanes,
                   {.nodes = pass.read(tree.nodes),
                    .starts = pass.write(buffers.starts),
                    .live = pass.write(buffers.live),
