@@ -119,13 +119,12 @@ MetChildren meetChildren(Beam beam, uvec3 corner, uint size, uvec2 mask, float u
     {
         uint x = i & 3u;
         uint y = i >> 2;
-        if (x >= kLayers.x || y >= kLayers.y)
-            continue;
+        uvec2 in_part = x < kLayers.x && y < kLayers.y ? mask : uvec2(0u);
         uint c = cellInBlock(uvec3(x, y, 0u)); // then c + 4, c + 32 and c + 36 along z
         vec4 enter = max(enter_z, max(enter_x[x], enter_y[y]));
         vec4 leave = min(leave_z, min(leave_x[x], leave_y[y]));
         bvec4 meets = lessThanEqual(enter, leave);
-        uvec4 bits = mix(uvec4(0u), uvec4(1u, kLayers.z > 1u ? 16u : 0u, 1u, 16u) << c, meets) & mask.xxyy;
+        uvec4 bits = mix(uvec4(0u), uvec4(1u, kLayers.z > 1u ? 16u : 0u, 1u, 16u) << c, meets) & in_part.xxyy;
         children |= bits.xz | bits.yw;
         first = min(first, mix(vec4(kTraceTimeMax), enter, notEqual(bits, uvec4(0u))));
     }
@@ -143,13 +142,14 @@ uint firstChild(uvec2 children, uint mirror)
     uint child = upper ? 32u : 0u;
     [[unroll]] for (uint step = 16u; step != 0u; step >>= 1)
     {
-        if (step >= kPart)
-            continue;
-        uint low = bits & ((1u << step) - 1u);
-        uint high = bits >> step;
-        bool take_high = (mirror & step) != 0u ? high != 0u : low == 0u;
-        bits = take_high ? high : low;
-        child += take_high ? step : 0u;
+        if (step < kPart)
+        {
+            uint low = bits & ((1u << step) - 1u);
+            uint high = bits >> step;
+            bool take_high = (mirror & step) != 0u ? high != 0u : low == 0u;
+            bits = take_high ? high : low;
+            child += take_high ? step : 0u;
+        }
     }
     return child;
 }

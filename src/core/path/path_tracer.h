@@ -43,11 +43,11 @@ struct PathOptions
     float lens_radius = 0.0F;    // world units; 0: a pinhole
     float focus_distance = 1.0F; // world units along the camera's direction, where the picture is sharp; more than 0
     LightSampling sampling = LightSampling::Both;
-    bool lights_by_power = false;      // chooses voxels by their light alone, wherever they are; for comparisons
-    bool smooth = false;               // what the camera sees is shaded by the normals of voxels, not by faces
-    bool roulette = false;             // ends paths early that would bring little light, by chance
-    bool reseeds = false;              // has other random numbers whenever it begins anew
-    bool features = false;             // sums up what the camera sees, too (PathTracer::guided())
+    bool lights_by_power = false; // chooses voxels by their light alone, wherever they are; for comparisons
+    bool smooth = false;          // what the camera sees is shaded by the normals of voxels, not by faces
+    bool roulette = false;        // ends paths early that would bring little light, by chance
+    bool reseeds = false;         // has other random numbers whenever it begins anew
+    bool features = false;        // sums up what the camera sees, too (PathTracer::guided())
 
     bool operator==(const PathOptions&) const = default;
 };
