@@ -5,6 +5,7 @@
 #include "common/progress.h"
 #include "core/base/grid.h"
 #include "core/base/tuning.h"
+#include "core/scene/points.h"
 #include "zvo/error.h"
 
 #include <fmt/format.h>
@@ -125,6 +126,8 @@ void addMaterialOptions(CLI::App& app, LoadOptions& options)
         ->take_all();
     app.add_flag("--keep-hulls", options.keep_hulls,
                  "keeps inverted hulls, the dark outlines of toon shading, which are left out otherwise");
+    addValue(app, "--point-size", options.point_size, integerIn(1, kPointSizeMax), "VOXELS",
+             "edge of the cube of voxels that a point becomes (default 1)");
     app.add_flag("--strict", options.strict,
                  "refuse files of which something would be left out, or would have no voxels, with a warning");
 }
@@ -132,7 +135,8 @@ void addMaterialOptions(CLI::App& app, LoadOptions& options)
 void addVoxelOptions(CLI::App& app, VoxelOptions& options, const std::string& also)
 {
     app.add_option("SCENE", options.scenes,
-                   "glTF 2.0 (.glb, .gltf), OBJ, PLY and STL files; several make one scene; or one scene file "
+                   "glTF 2.0 (.glb, .gltf), OBJ, PLY and STL files, and text with points; several make one scene; or "
+                   "one scene file "
                    "(.scene.json), which places them and lets them move" +
                        also)
         ->required()

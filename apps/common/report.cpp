@@ -2,6 +2,7 @@
 #include "common/report.h"
 
 #include "common/names.h"
+#include "common/words.h"
 #include "zvo/version.h"
 
 #include <algorithm>
@@ -18,6 +19,7 @@ SceneCounts SceneCounts::of(const Scene& scene, const Grid& grid, Coverage cover
     {
         const Primitive& primitive = scene.primitives[instance.primitive];
         const Material& material = scene.materials[primitive.material];
+        counts.points += primitive.is_points ? primitive.triangles.size() : 0;
         if (material.alpha_mode != AlphaMode::Opaque)
         {
             counts.transparent[material.name] += primitive.triangles.size();
@@ -30,9 +32,19 @@ SceneCounts SceneCounts::of(const Scene& scene, const Grid& grid, Coverage cover
     return counts;
 }
 
+std::string SceneCounts::told() const
+{
+    const std::string cloud = counted(points, "point");
+    const std::string mesh = counted(triangles - std::min(points, triangles), "triangle");
+    return points == 0 ? mesh : points < triangles ? mesh + " and " + cloud : cloud;
+}
+
 Json sceneJson(const SceneCounts& counts, const std::map<std::string, std::uint64_t>& dropped)
 {
-    Json json = {{"triangles", counts.triangles}, {"dropped", dropped}, {"transparent", counts.transparent}};
+    Json json = {{"triangles", counts.triangles},
+                 {"points", counts.points},
+                 {"dropped", dropped},
+                 {"transparent", counts.transparent}};
     if (counts.parts)
     {
         json["parts"] = counts.parts->parts;

@@ -25,11 +25,15 @@ using Json = nlohmann::ordered_json;
 /// What a scene has, and what of it may have no voxels.
 struct SceneCounts
 {
-    std::uint64_t triangles = 0;
+    std::uint64_t triangles = 0;                           // and points, which are counted like triangles everywhere
+    std::uint64_t points = 0;                              // of these
     std::map<std::string, std::uint64_t> transparent = {}; // triangles by the names of materials that are not opaque
     std::optional<PartCount> parts = std::nullopt;         // for thin coverage
 
     static SceneCounts of(const Scene& scene, const Grid& grid, Coverage coverage);
+
+    /// "12 triangles", "1 point", "12 triangles and 1 point".
+    [[nodiscard]] std::string told() const;
 };
 
 /// counts as a report has them, with the dropped triangles by reason.

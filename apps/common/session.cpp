@@ -38,7 +38,7 @@ void warnOfNothing(bool has_triangles)
 {
     if (!has_triangles)
     {
-        talk("warning: the scene has no triangles");
+        talk("warning: the scene has no triangles and no points");
     }
 }
 
@@ -55,7 +55,7 @@ std::string whyNoVoxels(const std::map<std::string, std::uint64_t>& dropped, con
 {
     if (counts.triangles == 0)
     {
-        return "the scene has no triangles";
+        return "the scene has no triangles and no points";
     }
     std::uint64_t rest = counts.triangles;
     std::vector<std::string> reasons;
@@ -79,7 +79,7 @@ std::string whyNoVoxels(const std::map<std::string, std::uint64_t>& dropped, con
     }
     rest += thin;
     add(rest, "are too small or thin to reach the middle of a voxel (--coverage conservative keeps them)");
-    return fmt::format("of {}, {}", counted(counts.triangles, "triangle"), fmt::join(reasons, ", "));
+    return fmt::format("of {}, {}", counts.told(), fmt::join(reasons, ", "));
 }
 
 // Refuses options that have no effect with a scene file.

@@ -48,6 +48,7 @@ void checkTreeOptions(const RenderOptions& options)
         {"--scale", voxels.load.scale != plain.load.scale},
         {"--skip-material", !voxels.load.skip_materials.empty()},
         {"--keep-hulls", voxels.load.keep_hulls},
+        {"--point-size", voxels.load.point_size != plain.load.point_size},
         {"--bind-pose", voxels.load.bind_pose},
         {"--scenes", voxels.scenes_folder.has_value()},
         {"--time", voxels.time.has_value() && !options.camera_path},

@@ -27,9 +27,8 @@ Json updateFrame(std::uint32_t number, double seconds, const LiveUpdate& update)
 void RenderReport::addOctree(const BuildResult& result, const SceneCounts& counts)
 {
     m_built = fmt::format("{} of {}^3 from {}; voxelize {:.1f} ms, build {:.1f} ms",
-                          counted(result.octree.voxel_count, "voxel"), result.octree.grid.resolution(),
-                          counted(counts.triangles, "triangle"), result.operationMs("voxelize"),
-                          result.operationMs("octree"));
+                          counted(result.octree.voxel_count, "voxel"), result.octree.grid.resolution(), counts.told(),
+                          result.operationMs("voxelize"), result.operationMs("octree"));
     if (!m_options.output.json.empty())
     {
         m_json = octreeJson("zvo.render/1", m_device.device().report(), m_options.voxels, counts, result,

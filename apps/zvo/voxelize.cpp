@@ -195,9 +195,8 @@ void voxelize(const VoxelizeOptions& options)
                               octreeSha256(device, result.octree), device.device().memory().peakBytes());
         });
     tellRun(fmt::format("{} of {}^3 from {}; voxelize {:.1f} ms, build {:.1f} ms on {}",
-                        counted(result.octree.voxel_count, "voxel"), run.grid.resolution(),
-                        counted(run.counts.triangles, "triangle"), result.operationMs("voxelize"),
-                        result.operationMs("octree"), device.device().report().name));
+                        counted(result.octree.voxel_count, "voxel"), run.grid.resolution(), run.counts.told(),
+                        result.operationMs("voxelize"), result.operationMs("octree"), device.device().report().name));
 }
 
 void buildFile(const BuildFileOptions& options)
@@ -217,9 +216,8 @@ void buildFile(const BuildFileOptions& options)
     run.finish([&] { return builtJson(run, options, built); });
     tellRun(fmt::format(
         "{} of {}^3 from {}; {} bytes of nodes, {} of attributes; voxelize {:.1f} ms, build {:.1f} ms{}{} on {}",
-        counted(built.tree.voxel_count, "voxel"), run.grid.resolution(), counted(run.counts.triangles, "triangle"),
-        built.tree.geometryBytes(), built.tree.attributeBytes(), operationMs(built.passes, "voxelize"),
-        operationMs(built.passes, "octree"),
+        counted(built.tree.voxel_count, "voxel"), run.grid.resolution(), run.counts.told(), built.tree.geometryBytes(),
+        built.tree.attributeBytes(), operationMs(built.passes, "voxelize"), operationMs(built.passes, "octree"),
         is_dag ? fmt::format(", compress {:.1f} ms", operationMs(built.passes, "svdag")) : "",
         isPacked(options.voxels.attributes) ? fmt::format(", pack {:.1f} ms", operationMs(built.passes, "attributes"))
                                             : "",

@@ -28,7 +28,7 @@ const uint kDirectionExponentMin = 28u;
 const uint kDirectionExponentMax = 226u;
 const uint kTurnedRoundBits = 2206203904u;
 
-/// One instance of a triangle list.
+/// One instance of a list of triangles or points.
 struct Draw
 {
     mat4x3 transform;      // object to world
@@ -42,7 +42,8 @@ struct Draw
     uint material;
     uint mirrored;          // 1: the transform turns the winding around
     uint first_emission_uv; // in SceneView::uvs, or kAbsent: first_uv where emission has the same coordinates
-    uvec2 zero;             // to whole texels of four words
+    uint is_points;         // 1: each triangle is a point, three times the same vertex
+    uint point_shift;       // of a point on the lattice, in half voxels: signed, 8 bits for each of x, y and z
 };
 GPU_BUFFER(Draw, 4);
 

@@ -39,7 +39,7 @@ Draw loadDraw(uint number)
     uvec4 h = texelFetch(texels4_draws, first + 7);
     return Draw(mat4x3(a.xyz, vec3(a.w, b.xy), vec3(b.zw, c.x), c.yzw),
                 mat3(d.xyz, vec3(d.w, e.xy), vec3(e.zw, uintBitsToFloat(f.x))), f.y, f.z, f.w, g.x, g.y, g.z, g.w, h.x,
-                h.y, h.zw);
+                h.y, h.z, h.w);
 }
 
 uvec3 loadTriangle(uint i)

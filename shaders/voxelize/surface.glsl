@@ -67,7 +67,8 @@ Surface loadSurface(Draw draw, uvec3 vertices, vec3 normal, float corner_area)
             surface.colors[i] = loadColor(draw.first_color + vertices[i]);
     if (kMode == kModeAttributes)
     {
-        ivec3 flat_normal = unitNormal(draw.mirrored != 0u ? -normal : normal);
+        bool has_side = draw.is_points == 0u; // a point without a normal has none
+        ivec3 flat_normal = has_side ? unitNormal(draw.mirrored != 0u ? -normal : normal) : ivec3(0);
         for (uint i = 0u; i < 3u; ++i)
         {
             surface.normals[i] = flat_normal;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "support/scenes.h"
 
+#include "core/scene/points.h"
 #include "support/places.h"
 
 #include <map>
@@ -60,6 +61,36 @@ Scene randomTriangles(std::uint32_t seed, std::size_t count, float extent)
         corners.insert(corners.end(), std::begin(triangle), std::end(triangle));
     }
     return triangleSoup(corners);
+}
+
+Scene randomPoints(std::uint32_t seed, std::size_t count, int extent)
+{
+    std::mt19937 random(seed);
+    const auto within = [&](int low, int high)
+    { return static_cast<float>(low + static_cast<int>(random() % static_cast<std::uint32_t>(high - low + 1))); };
+    const auto coordinate = [&]
+    {
+        const bool is_between = random() % 4 == 0;
+        return is_between ? within(-extent / 8, extent + extent / 8)
+                          : within(-64 * extent, 576 * extent) * (1.0F / 512.0F);
+    };
+    Scene scene;
+    scene.materials.emplace_back();
+    scene.instances.emplace_back();
+    Primitive& cloud = scene.primitives.emplace_back();
+    for (std::size_t i = 0; i < count; ++i)
+    {
+        const float x = coordinate();
+        const float y = coordinate();
+        cloud.positions.emplace_back(x, y, coordinate());
+        const float red = within(0, 255) / 255.0F;
+        const float green = within(0, 255) / 255.0F;
+        cloud.colors.emplace_back(red, green, within(0, 255) / 255.0F, 1.0F);
+        const float along = within(-100, 100);
+        cloud.normals.push_back(glm::normalize(glm::vec3(along, within(-100, 100), 101.0F)));
+    }
+    makePoints(cloud);
+    return scene;
 }
 
 Scene boxScene(const glm::vec3& min, const glm::vec3& max)

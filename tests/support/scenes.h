@@ -17,6 +17,10 @@ Scene triangleSoup(const std::vector<glm::vec3>& corners);
 /// count random triangles in [0, extent]^3, a mixture of tiny, long, thin, flat and huge ones.
 Scene randomTriangles(std::uint32_t seed, std::size_t count, float extent);
 
+/// count random points with colours and normals in a cube that reaches beyond [0, extent]^3 by an eighth of extent.
+/// Coordinates are multiples of 1/512; many lie between voxels of edge 1.
+Scene randomPoints(std::uint32_t seed, std::size_t count, int extent);
+
 /// The box from min to max, twelve triangles.
 Scene boxScene(const glm::vec3& min, const glm::vec3& max);
 

@@ -24,8 +24,8 @@ namespace
 
 constexpr int kSavedMost = 1000; // largest number in a file's name
 
-const std::vector<std::string> kReadExtensions = {".zvo", ".vox", ".glb",  ".gltf", ".obj",
-                                                  ".ply", ".stl", ".json", ".hdr",  ".exr"};
+const std::vector<std::string> kReadExtensions = {".zvo", ".vox", ".glb", ".gltf", ".obj", ".ply",
+                                                  ".stl", ".xyz", ".pts", ".json", ".hdr", ".exr"};
 const std::vector<std::string> kWrittenExtensions = {".zvo", ".vox",  ".ply", ".glb", ".nvdb",
                                                      ".png", ".webp", ".jpg", ".exr", ".hdr"};
 

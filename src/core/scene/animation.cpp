@@ -241,6 +241,7 @@ Primitive surfaceOf(const Primitive& primitive)
     surface.colors = primitive.colors;
     surface.triangles = primitive.triangles;
     surface.material = primitive.material;
+    surface.is_points = primitive.is_points;
     return surface;
 }
 

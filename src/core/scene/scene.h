@@ -56,7 +56,7 @@ struct Material
     bool double_sided = true;  // whether a rasterizer shows back faces; voxels have no sides
 };
 
-/// A triangle list with one material. Each vertex array is either empty or as long as positions.
+/// A list of triangles, or of points, with one material. Each vertex array is either empty or as long as positions.
 struct Primitive
 {
     std::vector<glm::vec3> positions;
@@ -67,6 +67,7 @@ struct Primitive
     std::vector<glm::vec4> colors;       // linear, multiplies the base colour
     std::vector<glm::uvec3> triangles;   // vertex indices, all < positions.size()
     std::uint32_t material = 0;          // index into Scene::materials
+    bool is_points = false; // each triangle is a point, three times the same vertex; a point has the voxel it lies in
 
     // What can deform the primitive. At rest its vertices are those above.
     std::vector<glm::u16vec4> joints; // indices into Skin::joints of any skin that an instance of the primitive names
@@ -82,6 +83,7 @@ struct Instance
     std::uint32_t node = kNone;  // index into Scene::nodes: the instance moves with it and takes its morph weights
     std::uint32_t skin = kNone;  // index into Scene::skins; only where the primitive has joints
     glm::mat4 in_node{1.0F};     // object to the node's space, affine
+    glm::ivec3 point_shift{0};   // of points, in half voxels along the grid's axes: -127 to 127
 };
 
 struct Camera

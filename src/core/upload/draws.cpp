@@ -30,7 +30,13 @@ void setTransform(gpu::Draw& draw, const glm::mat4& transform)
     draw.mirrored = determinant < 0 ? 1 : 0;
 }
 
-gpu::Draw makeDraw(const Primitive& primitive, const PrimitiveOffsets& primitive_offsets, const glm::mat4& transform)
+std::uint32_t packShift(const glm::ivec3& shift)
+{
+    const auto byte = [](int value) { return static_cast<std::uint32_t>(static_cast<std::uint8_t>(value)); };
+    return byte(shift.x) | byte(shift.y) << 8U | byte(shift.z) << 16U;
+}
+
+gpu::Draw makeDraw(const Primitive& primitive, const PrimitiveOffsets& primitive_offsets, const Instance& instance)
 {
     gpu::Draw draw{};
     draw.first_triangle = primitive_offsets.first_triangle;
@@ -41,7 +47,9 @@ gpu::Draw makeDraw(const Primitive& primitive, const PrimitiveOffsets& primitive
     draw.first_emission_uv = primitive_offsets.first_emission_uv;
     draw.first_color = primitive_offsets.first_color;
     draw.material = primitive.material;
-    setTransform(draw, transform);
+    draw.is_points = primitive.is_points ? 1 : 0;
+    draw.point_shift = packShift(instance.point_shift);
+    setTransform(draw, instance.transform);
     return draw;
 }
 
@@ -101,8 +109,7 @@ std::vector<gpu::Draw> makeDraws(const Scene& scene)
     draws.reserve(scene.instances.size());
     for (const Instance& instance : scene.instances)
     {
-        draws.push_back(
-            makeDraw(scene.primitives[instance.primitive], offsets[instance.primitive], instance.transform));
+        draws.push_back(makeDraw(scene.primitives[instance.primitive], offsets[instance.primitive], instance));
     }
     return draws;
 }

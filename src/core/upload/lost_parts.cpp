@@ -123,6 +123,10 @@ PartCount countParts(const Scene& scene, const Grid& grid)
         for (const Instance& instance : scene.instances)
         {
             const Primitive& primitive = scene.primitives[instance.primitive];
+            if (primitive.is_points)
+            {
+                continue; // has a voxel each
+            }
             std::optional<MeshParts>& own = parts[instance.primitive];
             if (!own)
             {

@@ -92,7 +92,7 @@ std::vector<std::uint32_t> leastLevels(const Scene& scene, const std::vector<boo
             const std::optional<LatticeCorners> corners = latticeCorners(primitive, t, instance.transform, grid);
             const glm::i64vec3 n = corners ? glm::abs(normalOf(*corners)) : glm::i64vec3(0);
             const std::int64_t area = std::max({n.x, n.y, n.z});
-            if (!corners || (area == 0 && coverage == Coverage::Thin))
+            if (!corners || (area == 0 && coverage == Coverage::Thin && !primitive.is_points))
             {
                 continue;
             }

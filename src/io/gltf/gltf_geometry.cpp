@@ -76,9 +76,11 @@ public:
 
     std::optional<Primitive> load(const GltfMaterial& material)
     {
-        if (m_source.mode < TINYGLTF_MODE_TRIANGLES)
+        const bool is_points =
+            m_source.mode == TINYGLTF_MODE_POINTS && !m_source.extensions.contains("KHR_draco_mesh_compression");
+        if (m_source.mode < TINYGLTF_MODE_TRIANGLES && !is_points)
         {
-            m_warnings.add("points and lines left out, only triangles become voxels", m_where);
+            m_warnings.add("lines left out, only triangles and points become voxels", m_where);
             return std::nullopt;
         }
         if (m_source.mode > TINYGLTF_MODE_TRIANGLE_FAN)
@@ -95,7 +97,8 @@ public:
         Primitive primitive;
         primitive.positions = readPositions();
         m_vertex_count = primitive.positions.size();
-        primitive.triangles = readTriangles();
+        primitive.is_points = is_points;
+        primitive.triangles = is_points ? readPoints() : readTriangles();
         primitive.normals = readNormals();
         primitive.material = material.index;
         primitive.uvs = readUvs(material.uvs);
@@ -340,6 +343,18 @@ private:
             throw m_document.error(fmt::format("element {} of {} is vertex {}, but there are {}; {}",
                                                bad - order.begin(), where, *bad, m_vertex_count, kExportAgain));
         }
+    }
+
+    std::vector<glm::uvec3> readPoints() const
+    {
+        const std::vector<std::uint32_t> order = readVertexOrder();
+        std::vector<glm::uvec3> points;
+        points.reserve(order.size());
+        for (const std::uint32_t vertex : order)
+        {
+            points.emplace_back(vertex);
+        }
+        return points;
     }
 
     std::vector<glm::uvec3> readTriangles() const

@@ -41,7 +41,7 @@ SceneSize measureMesh(const tinygltf::Model& model, const tinygltf::Mesh& mesh)
         };
         const double vertex_count = attribute_bytes("POSITION", 1);
         const double corner_count = primitive.indices < 0 ? vertex_count : elementCount(model, primitive.indices);
-        const bool is_list = primitive.mode <= TINYGLTF_MODE_TRIANGLES;
+        const bool is_list = primitive.mode <= TINYGLTF_MODE_TRIANGLES && primitive.mode != TINYGLTF_MODE_POINTS;
         const double triangle_count = is_list ? corner_count / 3 : corner_count;
         size.vertex_count = std::max(size.vertex_count, vertex_count);
         size.triangle_count += triangle_count;

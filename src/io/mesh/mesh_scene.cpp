@@ -3,6 +3,7 @@
 
 #include "core/base/input_error.h"
 #include "core/base/read_file.h"
+#include "core/scene/points.h"
 #include "io/file/folder_bounds.h"
 
 #include <algorithm>
@@ -101,6 +102,10 @@ std::optional<std::uint32_t> MeshScene::addTexture(const std::string& name, cons
 
 Scene MeshScene::finish()
 {
+    if (std::ranges::all_of(m_scene.primitives, [](const Primitive& primitive) { return primitive.triangles.empty(); }))
+    {
+        std::ranges::for_each(m_scene.primitives, makePoints);
+    }
     SceneSize size{.instance_count = static_cast<double>(m_scene.primitives.size())};
     for (const Primitive& primitive : m_scene.primitives)
     {
@@ -110,7 +115,7 @@ Scene MeshScene::finish()
     checkSceneSize(m_path, size);
     if (size.triangle_count == 0)
     {
-        warn("without faces, such as a cloud of points; only triangles become voxels");
+        warn("without faces and points; only these become voxels");
     }
     return std::move(m_scene);
 }

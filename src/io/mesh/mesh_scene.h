@@ -42,8 +42,8 @@ public:
     std::optional<std::uint32_t> addTexture(const std::string& name, const std::filesystem::path& named_in,
                                             WrapMode wrap);
 
-    /// The scene, with a warning where it has no triangles. Throws Error{Input} where primitives are too many or too
-    /// long.
+    /// The scene. Where it has no triangles its vertices become points; without any there is a warning. Throws
+    /// Error{Input} where primitives are too many or too long.
     Scene finish();
 
 private:

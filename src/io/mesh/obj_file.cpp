@@ -53,6 +53,19 @@ public:
             throw inputError(m_path, fmt::format("not a valid OBJ file: it has no vertices; {}", kExportAgain));
         }
         forEachStatement([this](std::string_view keyword) { readFaces(keyword); });
+        if (m_primitives.empty())
+        {
+            m_bytes_left.take(m_lists[Positions].size() * sizeof(glm::uvec3));
+            m_colors.resize(m_colors.empty() ? 0 : m_lists[Positions].size(), glm::vec4(1.0F));
+            Primitive points;
+            points.positions = std::move(m_lists[Positions]);
+            points.colors = std::move(m_colors);
+            m_scene.add(std::move(points));
+        }
+        else if (m_has_points)
+        {
+            m_scene.warn(kNoTriangles);
+        }
         for (auto& [material, primitive] : m_primitives)
         {
             m_materials.add(std::move(primitive), material);
@@ -159,7 +172,11 @@ private:
             m_primitive = nullptr;
             m_material = m_words.rest();
         }
-        else if (keyword == "l" || keyword == "p")
+        else if (keyword == "p")
+        {
+            m_has_points = true;
+        }
+        else if (keyword == "l")
         {
             m_scene.warn(kNoTriangles);
         }
@@ -256,6 +273,7 @@ private:
     std::array<std::vector<glm::vec3>, ListCount> m_lists;
     std::array<std::int64_t, ListCount> m_above{}; // the current line
     std::vector<glm::vec4> m_colors;               // of the first vertices, up to the last that has one
+    bool m_has_points = false;                     // statements for points
     std::vector<Corner> m_corners;                 // of the current face
     std::vector<std::uint32_t> m_vertices;
     PolygonTriangulator m_triangulator;

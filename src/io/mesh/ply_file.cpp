@@ -142,7 +142,8 @@ private:
         const bool has_normals = element.has(PlyNormal, 3);
         const bool has_colors = element.has(PlyColor, 3);
         const bool has_uvs = element.has(PlyUv, 2);
-        m_vertex_bytes = sizeof(glm::vec3) + (has_normals ? sizeof(glm::vec3) : 0) +
+        m_vertex_bytes = sizeof(glm::vec3) +
+                         sizeof(glm::uvec3) + // where it is a point (has_normals ? sizeof(glm::vec3) : 0) +
                          (has_colors ? sizeof(glm::vec4) : 0) + (has_uvs ? sizeof(glm::vec2) : 0);
         const auto addVertex = [&]
         {

@@ -123,6 +123,7 @@ public:
         : m_scene_file_path(scene_file_path), m_options{.every_animation = true,
                                                         .keep_hulls = options.keep_hulls,
                                                         .strict = options.strict,
+                                                        .point_size = options.point_size,
                                                         .images = options.images},
           m_skipped(options.skip_materials)
     {

@@ -5,12 +5,14 @@
 #include "core/base/read_file.h"
 #include "core/file/zvo_file.h"
 #include "core/scene/animation.h"
+#include "core/scene/points.h"
 #include "io/file/text_cursor.h"
 #include "io/file/utf16.h"
 #include "io/gltf/gltf_loader.h"
 #include "io/mesh/obj_file.h"
 #include "io/mesh/ply_file.h"
 #include "io/mesh/stl_file.h"
+#include "io/mesh/xyz_file.h"
 #include "io/scene/hulls.h"
 
 #include <algorithm>
@@ -34,7 +36,8 @@ enum class FileFormat
     Gltf,
     Obj,
     Ply,
-    Stl
+    Stl,
+    Xyz
 };
 
 std::string lowerExtension(const std::filesystem::path& path)
@@ -67,7 +70,9 @@ std::optional<FileFormat> formatOf(std::span<const std::uint8_t> bytes, const st
         return FileFormat::Gltf;
     }
     const bool has_vertices = content.starts_with("v ") || content.find("\nv ") != std::string_view::npos;
-    return has_vertices ? std::optional(FileFormat::Obj) : std::nullopt;
+    return has_vertices                ? std::optional(FileFormat::Obj)
+           : isXyzExtension(extension) ? std::optional(FileFormat::Xyz)
+                                       : std::nullopt;
 }
 
 Scene loadFile(const std::filesystem::path& path, ImageDecoding decoding)
@@ -97,8 +102,8 @@ Scene loadFile(const std::filesystem::path& path, ImageDecoding decoding)
     if (!format)
     {
         throw inputError(path,
-                         "neither glTF 2.0 nor OBJ, PLY or STL; export it as one of them, or name it .gltf, .glb, "
-                         ".obj, .ply or .stl");
+                         "neither glTF 2.0 nor OBJ, PLY, STL or text with points; export it as one of them, or name "
+                         "it .gltf, .glb, .obj, .ply, .stl or .xyz");
     }
     switch (*format)
     {
@@ -108,6 +113,8 @@ Scene loadFile(const std::filesystem::path& path, ImageDecoding decoding)
         return readPly(path, bytes, decoding);
     case FileFormat::Stl:
         return readStl(path, bytes);
+    case FileFormat::Xyz:
+        return readXyz(path, bytes);
     default:
         return loadGltf(path, std::move(bytes), decoding);
     }
@@ -202,6 +209,7 @@ Scene loadScene(std::span<const std::filesystem::path> paths, const LoadOptions&
         {
             keepAnimation(loaded);
         }
+        widenPoints(loaded, options.point_size);
         scene.append(options.bind_pose ? asModelled(std::move(loaded)) : std::move(loaded));
     }
     applyLoadOptions(scene, options);

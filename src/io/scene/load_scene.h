@@ -33,14 +33,15 @@ struct LoadOptions
     bool bind_pose = false;       // meshes as they were modelled (asModelled())
     bool keep_hulls = false;      // of toon shading (io/scene/hulls.h); otherwise they are left out, with a warning
     bool strict = false;          // refuses files that Scene::warnings would have a line about
+    std::uint32_t point_size = 1; // edge of the cube of voxels that a point becomes, up to kPointSizeMax
     ImageDecoding images = ImageDecoding::WhenLoaded; // strict loading decodes them at once
     std::vector<std::string> skip_materials = {};     // patterns of names of materials to leave out (SkippedMaterials)
 };
 
-/// Loads several files as one scene, in the order of the paths: glTF 2.0, OBJ, PLY and STL, told apart by their content
-/// where it is clear, otherwise by their extension. Warns of a pattern in skip_materials that no material has. Throws
-/// Error{Input}, one line with the path, also for Scene::warnings of files with LoadOptions::strict, and what
-/// applyLoadOptions() throws.
+/// Loads several files as one scene, in the order of the paths: glTF 2.0, OBJ, PLY, STL and text with points, told
+/// apart by their content where it is clear, otherwise by their extension. Warns of a pattern in skip_materials that no
+/// material has. Throws Error{Input}, one line with the path, also for Scene::warnings of files with
+/// LoadOptions::strict, and what applyLoadOptions() throws.
 Scene loadScene(std::span<const std::filesystem::path> paths, const LoadOptions& options = {});
 
 /// The same, for files that are loaded one by one: skipped takes the place of LoadOptions::skip_materials, and its

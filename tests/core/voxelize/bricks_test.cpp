@@ -95,6 +95,13 @@ TEST(Bricks, OfMaterialsGiveTheSameBytes)
     expectSameBytes(scene, Grid{glm::vec3(0), 1.0F, 6});
 }
 
+TEST(Bricks, OfTrianglesAndPointsGiveTheSameBytes)
+{
+    Scene scene = triangles(100, 9, 30);
+    scene.append(test::randomPoints(2, 200, 32));
+    expectSameBytes(scene, Grid{glm::vec3(0), 1.0F, 5});
+}
+
 TEST(Bricks, AreTakenAgainWithTheCapacitiesOfAnEarlierBuild)
 {
     vk::HeadlessDevice& device = *devicesOfBricks().front();

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Tiles have the same voxels and attributes as the whole grid, bit for bit.
+#include "core/scene/points.h"
 #include "runtime/trees.h"
 #include "support/engine_device.h"
 #include "support/materials_scene.h"
@@ -109,6 +110,13 @@ TEST_P(Tiles, OfSegmentsAndPointsMakeTheWhole)
         corners.insert(corners.end(), {a, a + glm::vec3(0.4F, 0.0F, 0.1F), b}); // some have area, for both coverages
     }
     expectTilesMakeTheWhole(test::triangleSoup(corners), {glm::vec3(-1.0F), 1.0F, 6}, 4, GetParam());
+}
+
+TEST_P(Tiles, OfCloudsOfPointsMakeTheWhole)
+{
+    Scene scene = test::randomPoints(3, 3000, 64);
+    widenPoints(scene, 2);
+    expectTilesMakeTheWhole(scene, {glm::vec3(0.0F), 1.0F, 6}, 4, GetParam());
 }
 
 // The grid is an octant of the root node, and tiles are not whole nodes.

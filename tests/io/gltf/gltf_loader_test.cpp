@@ -105,19 +105,32 @@ TEST(GltfLoader, StripLeavesOutTheTrianglesThatOnlyJoinParts)
     EXPECT_EQ(builder.load().primitives[0].triangles, (Triangles{{0, 1, 2}, {3, 5, 4}}));
 }
 
-TEST(GltfLoader, PointsAndLinesAreLeftOutWithAWarning)
+TEST(GltfLoader, LinesAreLeftOutWithAWarning)
 {
     GltfBuilder builder;
     const json triangle = trianglePrimitive(builder);
-    json points = triangle;
-    points["mode"] = kPoints;
     json lines = triangle;
     lines["mode"] = kLines;
-    builder.add("meshes", {{"primitives", {points, triangle, lines}}});
+    builder.add("meshes", {{"primitives", {lines, triangle, lines}}});
     builder.add("nodes", {{"mesh", 0}});
     const Scene scene = builder.load();
     EXPECT_EQ(scene.triangleCount(), 1U);
-    expectOneLine(scene.warnings, {"points and lines", "meshes[0].primitives[0] and 1 more"});
+    expectOneLine(scene.warnings, {"lines left out", "meshes[0].primitives[0] and 1 more"});
+}
+
+TEST(GltfLoader, PointsAreTheVerticesThatIndicesName)
+{
+    EXPECT_EQ(fiveVertices(kPoints).primitives[0].triangles.size(), 5U);
+    GltfBuilder builder;
+    const std::size_t positions = builder.addPositions({0, 0, 0, 0, 1, 0, 1, 0, 0, 1, 1, 0});
+    const std::vector<std::uint16_t> order = {3, 1, 3, 0};
+    builder.addMeshNode({{"attributes", {{"POSITION", positions}}},
+                         {"indices", builder.addAccessor("SCALAR", kU16, order.size(), order)},
+                         {"mode", kPoints}});
+    const Scene scene = builder.load();
+    EXPECT_TRUE(scene.primitives[0].is_points);
+    EXPECT_EQ(scene.primitives[0].triangles, (Triangles{{3, 3, 3}, {1, 1, 1}, {3, 3, 3}, {0, 0, 0}}));
+    EXPECT_TRUE(scene.warnings.empty());
 }
 
 TEST(GltfLoader, IndicesMayHaveEightSixteenOrThirtyTwoBits)

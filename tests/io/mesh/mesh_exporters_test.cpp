@@ -113,7 +113,6 @@ TEST(MeshExporters, ObjPartsThatAreNotReadAreAWarning)
     expectOneLine(loadText("a.obj", square + "surf 0 1 0 1 1 2 3 4\nsurf 0 1 0 1 1 2 3 4\nf 1 2 3\n").warnings,
                   {"free-form"});
     expectOneLine(loadText("a.obj", square + "p 1\np 2\nl 1 2 3\nf 1 2\nf 1 2 3\n").warnings, {"points and lines"});
-    expectOneLine(loadText("a.obj", square).warnings, {"without faces"});
     expectOneLine(loadText("a.obj", square + "f 1/9 2/0 3/1\n").warnings, {"texture coordinate that is not there"});
     expectOneLine(loadText("a.obj", square + "f 1//1 2//1 3//\n").warnings, {"normal that is not there"});
     expectOneLine(loadText("a.obj", square + kSquareFace).warnings, {"no material file has the material m"});

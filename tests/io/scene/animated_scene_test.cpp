@@ -257,7 +257,7 @@ TEST_F(AnimatedSceneTest, WarningsOfAFileAreToldOnce)
 {
     GltfBuilder builder = triangleDocument();
     builder.document["meshes"][0]["primitives"].push_back(builder.document["meshes"][0]["primitives"][0]);
-    builder.document["meshes"][0]["primitives"][1]["mode"] = kPoints;
+    builder.document["meshes"][0]["primitives"][1]["mode"] = kLines;
     m_dir.write("scenes/points.glb", builder.glb());
     const AnimatedScene animated =
         load(R"({"objects": [{"file": "points.glb"}, {"file": "points.glb"}, {"file": "points.glb"}]})");

@@ -69,16 +69,16 @@ TEST(LoadScene, StrictRefusesWhatWouldBeLeftOut)
     EXPECT_EQ(loadScene(std::span(&whole, 1), {.strict = true}).triangleCount(), 1U);
     GltfBuilder builder = triangleDocument();
     builder.document["meshes"][0]["primitives"].push_back(trianglePrimitive(builder));
-    builder.document["meshes"][0]["primitives"][1]["mode"] = kPoints;
-    const std::filesystem::path points = dir.write("points.glb", builder.glb());
-    EXPECT_EQ(loadScene(std::span(&points, 1)).warnings.size(), 1U);
-    expectInputError([&] { return loadScene(std::span(&points, 1), {.strict = true}); },
-                     {"points.glb: points and lines left out", "strict loading refuses the file"});
-    const std::filesystem::path scene = dir.write("a.scene.json", R"({"objects": [{"file": "points.glb"}]})");
+    builder.document["meshes"][0]["primitives"][1]["mode"] = kLines;
+    const std::filesystem::path lines = dir.write("lines.glb", builder.glb());
+    EXPECT_EQ(loadScene(std::span(&lines, 1)).warnings.size(), 1U);
+    expectInputError([&] { return loadScene(std::span(&lines, 1), {.strict = true}); },
+                     {"lines.glb: lines left out", "strict loading refuses the file"});
+    const std::filesystem::path scene = dir.write("a.scene.json", R"({"objects": [{"file": "lines.glb"}]})");
     EXPECT_EQ(loadAnimatedScene(scene).warnings.size(), 1U);
     AnimatedSceneOptions strict;
     strict.load.strict = true;
-    expectInputError([&] { return loadAnimatedScene(scene, strict); }, {"points.glb: points and lines left out"});
+    expectInputError([&] { return loadAnimatedScene(scene, strict); }, {"lines.glb: lines left out"});
 }
 
 TEST(LoadScene, UpTurnsTheAxisToYWithoutMirroring)

@@ -381,13 +381,14 @@ TEST(MeshImport, Utf16OfAllPlanesBecomesUtf8)
     EXPECT_FALSE(asUtf8(std::vector<std::uint8_t>{0, 0}));
 }
 
-TEST(MeshImport, PlyPointsAreAWarning)
+TEST(MeshImport, PlyVerticesWithoutFacesArePoints)
 {
     const Scene scene = loadText("cloud.ply", "ply\nformat ascii 1.0\nelement vertex 1\nproperty double x\nproperty "
                                               "double y\nproperty double z\nend_header\n+0.5 1e3 -2\n");
     EXPECT_EQ(scene.primitives.at(0).positions, (std::vector<glm::vec3>{{0.5F, 1000, -2}}));
-    EXPECT_EQ(scene.triangleCount(), 0U);
-    expectOneLine(scene.warnings, {"cloud of points"});
+    EXPECT_TRUE(scene.primitives[0].is_points);
+    EXPECT_EQ(scene.primitives[0].triangles, (std::vector<glm::uvec3>{{0, 0, 0}}));
+    EXPECT_TRUE(scene.warnings.empty());
 }
 
 TEST(MeshImport, TextCoordinatesAreRoundedOnce)
