@@ -40,7 +40,7 @@ constexpr std::array<TuningRow, 9> kTable = {{
     {Tunable::MixedSums, "mixed-sums", "sums of voxels with several fragments alone", 1, 0, kSwitches},
     {Tunable::VoxelForm, "voxels", "voxelization by triangles, or by bricks; auto: by area", 0, 2, kVoxelForms},
     {Tunable::PathForm, "path-form", "paths in stages, or whole in one kernel", 0, 1, kPathForms},
-    {Tunable::BeamLanes, "beam-lanes", "threads that share a beam", 1, 8, kBeamLanes},
+    {Tunable::BeamLanes, "beam-lanes", "threads that share a beam", 1, 4, kBeamLanes},
     {Tunable::SubgroupSize, vk::kSubgroupSizeName, "threads of a subgroup", 0, 0, kSubgroupSizes},
     {Tunable::Loads, vk::kLoadsName, "how kernels that have both forms reach their buffers", 0, 0, kLoads},
 }};
