@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "support/scenes.h"
 
-#include "core/scene/points.h"
 #include "support/places.h"
 
 #include <map>
@@ -78,8 +77,10 @@ Scene randomPoints(std::uint32_t seed, std::size_t count, int extent)
     scene.materials.emplace_back();
     scene.instances.emplace_back();
     Primitive& cloud = scene.primitives.emplace_back();
+    cloud.is_points = true;
     for (std::size_t i = 0; i < count; ++i)
     {
+        cloud.triangles.emplace_back(static_cast<std::uint32_t>(i));
         const float x = coordinate();
         const float y = coordinate();
         cloud.positions.emplace_back(x, y, coordinate());
@@ -89,7 +90,6 @@ Scene randomPoints(std::uint32_t seed, std::size_t count, int extent)
         const float along = within(-100, 100);
         cloud.normals.push_back(glm::normalize(glm::vec3(along, within(-100, 100), 101.0F)));
     }
-    makePoints(cloud);
     return scene;
 }
 

@@ -6,7 +6,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace zvo::test
@@ -94,13 +96,14 @@ TEST(PointFiles, IntensitiesBecomeGreys)
 
 TEST(PointFiles, TextThatIsNoCloudIsRefused)
 {
-    expectInputError([] { loadText("a.xyz", "0 0 0\n1 2\n"); },
-                     {"a.xyz", "line 2 has 2 numbers", "expected 3 numbers"});
-    expectInputError([] { loadText("a.xyz", "0 0 0\n1 2 x\n"); }, {"line 2 has words"});
-    expectInputError([] { loadText("a.xyz", "0 0 0 1 2\n"); }, {"line 1 has 5 numbers", "x y z [intensity]"});
-    expectInputError([] { loadText("a.xyz", "0 0 0 1 2 3 4 5 6 7 8 9\n"); }, {"12 numbers"});
-    expectInputError([] { loadText("a.txt", "to do\n"); }, {"has no points"});
-    expectInputError([] { loadText("a.xyz", "3\nwater\nO 0 0 0\nH 0 1 0\n"); }, {"has no points"});
+    const auto expectRefused = [](const std::string& text, std::initializer_list<std::string> parts)
+    { expectParts(messageOf([&] { loadText("a.xyz", text); }, ErrorCode::Input), parts); };
+    expectRefused("0 0 0\n1 2\n", {"a.xyz", "line 2 has 2 numbers", "expected 3 numbers"});
+    expectRefused("0 0 0\n1 2 x\n", {"line 2 has words"});
+    expectRefused("0 0 0 1 2\n", {"line 1 has 5 numbers", "x y z [intensity]"});
+    expectRefused("0 0 0 1 2 3 4 5 6 7 8 9\n", {"12 numbers"});
+    expectRefused("to do\n", {"has no points"});
+    expectRefused("3\nwater\nO 0 0 0\nH 0 1 0\n", {"has no points"});
 }
 
 TEST(PointFiles, ObjAndPlyVerticesWithoutFacesArePoints)
