@@ -412,6 +412,7 @@ void OctreeBuilder::emission(vk::FrameGraph& graph)
 void OctreeBuilder::endVoxelAttributes()
 {
     m_coverings.reset();
+    m_bricks.reset();
     if (m_options.keep_sums)
     {
         m_result.octree.sums = {std::move(m_sums->sums), std::move(m_sums->emission_sums), m_sums->sum_shift};
@@ -534,7 +535,7 @@ void OctreeBuilder::endBrickNumbers()
     bricks.work_bricks = {};
     bricks.large = {};
     m_bricks->work.items = {};
-    m_step = {&OctreeBuilder::brickAttributes, &OctreeBuilder::learnBrickAttributes};
+    m_step = {&OctreeBuilder::brickAttributes, &OctreeBuilder::learnAttributes};
 }
 
 void OctreeBuilder::brickAttributes(vk::FrameGraph& graph)
@@ -550,19 +551,6 @@ void OctreeBuilder::brickAttributes(vk::FrameGraph& graph)
     }
     shadeBricks(graph, {m_scene, m_tile, m_bricks->bricks}, m_item_count, m_sum_form.int64, *m_sums, octree);
     m_offsets.max_fragments = m_readback.copy(graph, m_sums->max_fragments, 0, 1);
-}
-
-void OctreeBuilder::learnBrickAttributes()
-{
-    const gpu::uint fragments = m_readback.at<gpu::uint>(m_offsets.max_fragments, 1).front();
-    if (fragments != 0)
-    {
-        m_sums->sum_shift = static_cast<std::uint32_t>(std::bit_width(fragments / (gpu::kFragmentsMax + 1)));
-        ++m_result.retry_count;
-        return;
-    }
-    m_bricks.reset();
-    endVoxelAttributes();
 }
 
 void OctreeBuilder::end()

@@ -109,7 +109,6 @@ private:
     void numberBricks(vk::FrameGraph& graph);
     void endBrickNumbers();
     void brickAttributes(vk::FrameGraph& graph);
-    void learnBrickAttributes();
     void requireRetry() const;
     void grow(const Growth& growth);
     std::uint32_t addLevels(std::uint32_t count);
