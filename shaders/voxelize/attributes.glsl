@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The attributes of the voxels of the items, a thread an item: those that a single fragment gives are written at once,
-// fragments of mixed voxels are added to their sums.
+// The attributes of the voxels of the items, a thread an item: fragments are added to the sums of their voxels or, with
+// kMixed, to those of mixed voxels, and what a single fragment gives is written at once.
 // Needs GPU_ENTRY with AttributesParams.
 #ifndef ZVO_SHADERS_VOXELIZE_ATTRIBUTES_GLSL
 #define ZVO_SHADERS_VOXELIZE_ATTRIBUTES_GLSL
@@ -49,8 +49,8 @@ void main()
     BrickEntry entry = loadBrick(item.entry);
     Node brick = loadLeaf(nodeOf(entry));
     ivec3 corner = brickCorner(entry);
-    TriangleSetup setup = loadSetup(setupOf(item));
-    Surface surface = surfaceOf(setupOf(item), setup);
+    TriangleSetup setup = loadSetup(item.triangle);
+    Surface surface = surfaceOf(item.triangle, setup);
     uint leaf = kBrickLeaves; // none
     Node node;
     MixedVoxels mixed;
@@ -63,12 +63,15 @@ void main()
             leaf = number >> 6;
             uint index = childIndex(brick, leaf);
             node = loadLeaf(index);
-            mixed = loadMixedLeaf(index);
+            if (kMixed)
+                mixed = loadMixedLeaf(index);
         }
         uint cell = number & 63u;
         uvec3 weights = fixedWeights(cornersAt(setup, corner + ivec3(voxel)), true);
         VoxelSums sums = sumsOf(fragmentColor(surface, weights).rgb, fragmentNormal(surface, weights));
-        if (isMixed(mixed, cell))
+        if (!kMixed)
+            addToSums(childIndex(node, cell), sums);
+        else if (isMixed(mixed, cell))
             addToSums(sumsIndex(mixed, cell), sums);
         else
             STORE_MEAN(childIndex(node, cell), sums, 0u);

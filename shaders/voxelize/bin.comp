@@ -1,7 +1,8 @@
 #version 460
 // SPDX-License-Identifier: MIT
-// Sets triangles up, and makes their items, a thread a triangle. Small ones have one in each brick that their box
-// touches, mostly a single one. Large ones are listed for voxelize/bin_large, in blocks of columns of bricks.
+// Sets triangles up, and makes their items, a thread a triangle. The voxels of small ones are found here, in 32-bit
+// integers; they have an item in each brick with one of them, mostly a single brick, and many have no voxel at all.
+// Large ones are listed for voxelize/bin_large, in blocks of columns of bricks.
 #extension GL_GOOGLE_include_directive : require
 #include "voxelize/bricks.h"
 
@@ -15,13 +16,14 @@ const bool kEmits = false;
 
 #define BRICKS_BINDING 0
 #define COLOR_BINDING 15
-#define EDGE_INT int64_t
-#define EDGE_IVEC3 i64vec3
-#define EDGE_WIDE
+#define EDGE_INT int
+#define EDGE_IVEC3 ivec3
 #extension GL_KHR_shader_subgroup_arithmetic : require
 #include "lib/arrivals.glsl"
 #include "lib/bound.glsl"
 #include "lib/dispatch.glsl"
+#include "voxelize/raster.glsl"
+#include "voxelize/item_voxels.glsl"
 #include "voxelize/bin.glsl"
 #include "voxelize/chunk.glsl"
 #include "voxelize/dropped.glsl"
@@ -101,57 +103,93 @@ void writeSetup(uint place, Surface surface, RasterTriangle t, uint material)
     }
 }
 
-// Returns whether the triangle is small and has voxels, and its box of voxels in x, y, z.
-bool setUp(ChunkTriangle taken, out ivec3 low, out ivec3 high)
+struct SmallVoxels
 {
-    uvec3 vertices = loadTriangle(taken.draw.first_triangle + taken.triangle);
-    SnappedTriangle snapped = snapTriangle(taken.draw, vertices, true);
-    low = snapped.low;
-    high = snapped.high;
-    bool small = false;
-    if (taken.exists)
-        countDropped(snapped.fate);
-    if (taken.exists && snapped.fate == kKept && all(lessThanEqual(low, high)))
+    ItemVoxels voxels; // of all bricks
+    uvec3 upper;       // those in the second brick along u, v, w, a bit a column
+};
+
+// The voxels of a small triangle. selected: else none.
+SmallVoxels coverSmall(RasterTriangle t, bool selected)
+{
+    SmallVoxels found = SmallVoxels(noVoxels(t), uvec3(0u));
+    uvec2 size = uvec2(t.high.xy - t.low.xy + 1);
+    uint column_count = selected ? size.x * size.y : 0u;
+    uint row_end = size.x;
+    ivec3 first_brick = t.low >> int(kBrickLog2);
+    ivec2 place = t.low.xy;
+    RasterCell row = startColumn(t, place);
+    RasterCell cell = row;
+    for (uint column = 0u; column < column_count;)
     {
-        small = isSmall(snapped);
-        uint axis = majorAxis(snapped.normal, low, high);
-        RasterTriangle t = setupTriangle(snapped.v0, snapped.v1, snapped.v2, snapped.normal, axis, low, high,
-                                         gridResolution());
-        Surface surface = loadSurface(taken.draw, vertices, vec3(snapped.normal), float(t.n_w));
-        writeSetup(taken.place, surface, t, taken.draw.material);
-        if (!small)
-            listLarge(snapped, axis, taken.place);
+        addVoxel(isCovered(t, cell), column, cell.w, found.voxels);
+        bvec3 is_upper = notEqual(ivec3(place, cell.w) >> int(kBrickLog2), first_brick);
+        found.upper |= uvec3(is_upper) << column;
+        ++column;
+        ++place.x;
+        nextColumn(t, cell);
+        if (column == row_end)
+        {
+            nextRow(t, row);
+            cell = row;
+            place = ivec2(t.low.x, place.y + 1);
+            row_end += size.x;
+        }
     }
-    return small;
+    return found;
+}
+
+// The columns that are in a brick of the eight, or not.
+uint columnsIn(SmallVoxels found, uint brick)
+{
+    uvec3 others = found.upper ^ uvec3((brick & 1u) - 1u, ((brick >> 1) & 1u) - 1u, (brick >> 2) - 1u);
+    return found.voxels.info & others.x & others.y & others.z & kColumnsMask;
 }
 
 void takeTriangle(ChunkTriangle taken)
 {
-    ivec3 low;
-    ivec3 high;
-    bool small = setUp(taken, low, high);
-    low >>= int(kBrickLog2);
-    high >>= int(kBrickLog2);
-    uvec3 size = small ? uvec3(high - low + 1) : uvec3(0u);
-    uint count = size.x * size.y * size.z;
+    uvec3 vertices = loadTriangle(taken.draw.first_triangle + taken.triangle);
+    SnappedTriangle snapped = snapTriangle(taken.draw, vertices, true);
+    if (taken.exists)
+        countDropped(snapped.fate);
+    bool kept = taken.exists && snapped.fate == kKept && all(lessThanEqual(snapped.low, snapped.high));
+    bool small = isSmall(snapped);
+    uint axis = majorAxis(snapped.normal, snapped.low, snapped.high);
+    RasterTriangle t = setupTriangle(snapped.v0, snapped.v1, snapped.v2, snapped.normal, axis, snapped.low,
+                                     snapped.high, gridResolution());
+    SmallVoxels found = coverSmall(t, kept && small);
+    uint bricks = 0u; // bit u + 2 v + 4 w
+    [[unroll]] for (uint brick = 0u; brick < 8u; ++brick)
+        bricks |= columnsIn(found, brick) != 0u ? 1u << brick : 0u;
+    uint count = bitCount(bricks);
     uint total = subgroupAdd(count);
     uint place = subgroupExclusiveAdd(count);
     uint first = 0u;
     if (subgroupElect() && total != 0u)
         first = addItems(total);
     place += subgroupBroadcastFirst(first);
-    ivec3 brick = low;
-    for (uint left = count; left > 0u; --left)
+    bool large = kept && !small;
+    if (bricks != 0u || large)
     {
-        writeItem(place++, taken.place, kWholeBox, brickEntry(brickKey(uvec3(brick), brickLevel())));
-        bool x_ends = brick.x == high.x;
-        bool y_ends = x_ends && brick.y == high.y;
-        brick = ivec3(x_ends ? low.x : brick.x + 1, y_ends ? low.y : (x_ends ? brick.y + 1 : brick.y),
-                      y_ends ? brick.z + 1 : brick.z);
+        float double_area = float(abs(permuted(snapped.normal, axis).z)); // in the projection along the major axis
+        Surface surface = loadSurface(taken.draw, vertices, vec3(snapped.normal), double_area);
+        writeSetup(taken.place, surface, t, taken.draw.material);
+    }
+    if (large)
+        listLarge(snapped, axis, taken.place);
+    for (; bricks != 0u; bricks &= bricks - 1u)
+    {
+        uint brick = uint(findLSB(bricks));
+        ivec3 cell = (t.low >> int(kBrickLog2)) + ivec3(brick & 1u, (brick >> 1) & 1u, brick >> 2);
+        cell = unpermuted(ivec3(cell.xy ^ t.mirror, cell.z), axis);
+        uint info = (found.voxels.info & ~kColumnsMask) | columnsIn(found, brick);
+        writeItem(place++, BrickItem(taken.place, brickEntry(brickKey(uvec3(cell), brickLevel()))),
+                  ItemVoxels(info, found.voxels.layers_lo, found.voxels.layers_hi));
     }
 }
 
-// The last subgroup of a walk over chunks sizes voxelize/bin_large for what has been listed so far.
+// The last subgroup of a walk over chunks notes how many items are those of small triangles so far, and sizes
+// voxelize/bin_large for what has been listed.
 void sizeLarge(uint group_count)
 {
     uint here = arrivingThreads();
@@ -159,6 +197,7 @@ void sizeLarge(uint group_count)
     if (areLastThreads(before, here, group_count * kChunkTriangles) && subgroupElect())
     {
         uint blocks = min(atomicOr(params.counters.data[0].large_count, 0u), params.large_capacity);
+        params.counters.data[0].small_items = atomicOr(params.counters.data[0].item_count, 0u);
         params.counters.data[0].large = foldedArgs(largeGroups(blocks), kGroupsXMax);
         atomicExchange(params.counters.data[0].arrived, 0u);
     }

@@ -1,14 +1,26 @@
 // SPDX-License-Identifier: MIT
 // Makes items, in the order of triangles, so that neighbours are mostly of one brick.
-// Needs the constants kWideKeys and kBlockLanes, and params.bricks, brick_mask, items, item_capacity and counters.
+// Needs the constants kWideKeys and kBlockLanes, and params.bricks, brick_mask, items, voxels, item_capacity and
+// counters.
 #ifndef ZVO_SHADERS_VOXELIZE_BIN_GLSL
 #define ZVO_SHADERS_VOXELIZE_BIN_GLSL
 
 #include "voxelize/bricks.h"
 
+#include "lib/bound.glsl"
 #include "lib/brick_keys.glsl"
 #include "lib/bricks.glsl"
 #include "voxelize/window.glsl"
+
+#ifdef BOUND
+STORAGE(19, BrickItem, items);
+STORAGE(20, ItemVoxels, voxels);
+#define ITEM(I) storage_items.data[I]
+#define ITEM_VOXELS(I) storage_voxels.data[I]
+#else
+#define ITEM(I) params.items.data[I]
+#define ITEM_VOXELS(I) params.voxels.data[I]
+#endif
 
 // Workgroups of voxelize/bin_large.
 uint largeGroups(uint block_count)
@@ -35,10 +47,14 @@ uint addItems(uint count)
     return first;
 }
 
-void writeItem(uint place, uint triangle, uint tile, uint entry)
+// voxels: of a large triangle's item, info is its tile.
+void writeItem(uint place, BrickItem item, ItemVoxels voxels)
 {
     if (place < params.item_capacity)
-        params.items.data[place] = BrickItem(triangle | (tile << kItemTileShift), entry);
+    {
+        ITEM(place) = item;
+        ITEM_VOXELS(place) = voxels;
+    }
 }
 
 #endif

@@ -79,7 +79,7 @@ void binColumn(RasterTriangle t, ivec2 column, CellBox voxels, LargeBlock large)
                 uint entry = brickEntry(brickKey(uvec3(voxelOf(t, column, cell.w)), brickLevel()));
                 uint place = addItems(bitCount(tiles));
                 for (; tiles != 0u; tiles &= tiles - 1u)
-                    writeItem(place++, large.triangle, uint(findLSB(tiles)), entry);
+                    writeItem(place++, BrickItem(large.triangle, entry), ItemVoxels(uint(findLSB(tiles)), 0u, 0u));
             }
         }
         walking = cell.w < high;

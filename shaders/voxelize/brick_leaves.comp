@@ -30,8 +30,9 @@ void main()
     uint leaf = gl_LocalInvocationIndex;
     uint brick = params.order.data[workgroupIndex()];
     BrickRange range = params.ranges.data[brick];
-    uvec2 mask = MASKS(brick * (2u * kBrickLeaves) + leaf);
-    uvec2 mixed = MASKS(brick * (2u * kBrickLeaves) + kBrickLeaves + leaf);
+    uint first_mask = brick * ((kMixed ? 2u : 1u) * kBrickLeaves);
+    uvec2 mask = MASKS(first_mask + leaf);
+    uvec2 mixed = kMixed ? MASKS(first_mask + kBrickLeaves + leaf) : uvec2(0u);
     uint low_voxels = bitCount(mask.x);
     uint total;
     uint mixed_voxels = bitCount(mixed.x) + bitCount(mixed.y);
@@ -41,7 +42,8 @@ void main()
     {
         uint node = childIndex(params.nodes.data[nodeOf(params.bricks.data[range.entry])], leaf);
         params.nodes.data[node] = Node(mask.x, first, mask.y, first + low_voxels);
-        params.mixed.data[node - params.first_leaf] =
-            MixedVoxels(mixed.x, mixed.y, range.first_sums + (before >> kMixedShift), 0u);
+        if (kMixed)
+            params.mixed.data[node - params.first_leaf] =
+                MixedVoxels(mixed.x, mixed.y, range.first_sums + (before >> kMixedShift), 0u);
     }
 }

@@ -11,20 +11,17 @@
 
 GPU_NAMESPACE_BEGIN
 
-const uint kBrickLog2 = 4u;        // a brick has 16 cells along each axis
-const uint kBrickLeaves = 64u;     // leaves of a brick
-const uint kLeafMaskWords = 128u;  // words of the masks of a brick's leaves
-const uint kBrickMaskWords = 256u; // those, and then those of mixed voxels
-const uint kItemColumns = 16u;     // columns of an item: at most one voxel of thin coverage each
-const uint kWholeBox = 16u;        // BrickItem: all of the triangle's box in the brick; less: the number of a tile
-const uint kItemTileShift = 27u;   // of BrickItem::triangle
-const uint kBlockBricks = 8u;      // rows and columns of bricks in a block of a large triangle
-const uint kBlocksMax = 16384u;    // of a triangle: one thread lists them
-const uint kLargeGroup = 64u;      // threads of a workgroup of voxelize/bin_large
-const uint kListGroup = 64u;       // threads of a workgroup of voxelize/list_bricks
-const uint kListItems = 16u;       // table entries that a thread of it reads
-const uint kItemsGroup = 64u;      // threads of a workgroup where one thread takes one item
-const uint kBricksGroup = 64u;     // threads of a workgroup where one thread takes one brick
+const uint kBrickLog2 = 4u;       // a brick has 16 cells along each axis
+const uint kBrickLeaves = 64u;    // leaves of a brick
+const uint kLeafMaskWords = 128u; // words of the masks of a brick's leaves
+const uint kItemColumns = 16u;    // columns of an item, one voxel each at most
+const uint kBlockBricks = 8u;     // rows and columns of bricks in a block of a large triangle
+const uint kBlocksMax = 16384u;   // of a triangle: one thread lists them
+const uint kLargeGroup = 64u;     // threads of a workgroup of voxelize/bin_large
+const uint kListGroup = 64u;      // threads of a workgroup of voxelize/list_bricks
+const uint kListItems = 16u;      // table entries that a thread of it reads
+const uint kItemsGroup = 64u;     // threads of a workgroup where one thread takes one item
+const uint kBricksGroup = 64u;    // threads of a workgroup where one thread takes one brick
 const int kBrickLatticeLog2 = kVoxelLatticeLog2 + int(kBrickLog2); // lattice units of a brick's edge
 
 /// A triangle that may have voxels, computed once for all that need it. Coordinates are those of voxelize/raster.glsl.
@@ -52,10 +49,11 @@ struct SurfaceSetup
 };
 GPU_BUFFER(SurfaceSetup, 16);
 
-/// Up to kItemColumns columns of a triangle in a brick.
+/// Up to kItemColumns columns of a triangle in a brick: of a small triangle, all that have voxels there; of a large
+/// one, one of the 4x4 tiles of 4x4 columns of the brick.
 struct BrickItem
 {
-    uint triangle; // its setup | tile << kItemTileShift: one of the 4x4 tiles of 4x4 columns of the brick, or kWholeBox
+    uint triangle; // its setup
     uint entry;    // of the brick in the table
 };
 GPU_BUFFER(BrickItem, 4);
@@ -68,13 +66,13 @@ struct LargeBlock
 };
 GPU_BUFFER(LargeBlock, 4);
 
-/// The voxels of an item. columns: those of its box that have one, row by row.
+/// The voxels of an item. columns: those of its box, row by row, that have one. Coordinates are modulo a brick.
 ///
 ///     info | columns 16 | width - 1 4 | first u 4 | first v 4 | axis 2 | u mirrored 1 | v mirrored 1 |   from bit 0 on
 struct ItemVoxels
 {
-    uint info;
-    uint layers_lo; // 4 bits for each column: the voxel's layer in the brick
+    uint info;      // of a large triangle's item, its tile until voxelize/cover has found its voxels
+    uint layers_lo; // 4 bits for each column: the voxel's layer
     uint layers_hi;
 };
 GPU_BUFFER(ItemVoxels, 4);
@@ -96,6 +94,7 @@ struct BinCounters
     uint listed_count; // bricks; 0 in a run that is thrown away, as something had no room
     uint item_count;
     uint item_carry;     // how often that wrapped around
+    uint small_items;    // of small triangles, which come first
     uint covered_items;  // item_count; 0 in a run that is thrown away
     uint wide_count;     // what is too large for voxelization by bricks
     uint large_count;    // blocks of large triangles
@@ -110,7 +109,8 @@ struct BinCounters
     uint mixed_count;     // mixed voxels
     uint arrived;         // threads of the running dispatch (lib/arrivals.glsl); 0 in between
     DispatchArgs large;   // of voxelize/bin_large
-    DispatchArgs cover;   // of voxelize/cover
+    DispatchArgs small;   // of voxelize/cover for items of small triangles
+    DispatchArgs cover;   // of large ones
     DispatchArgs collect; // of voxelize/collect_bricks
 };
 GPU_BUFFER(BinCounters, 4);
@@ -123,6 +123,7 @@ struct BinParams // push constants of voxelize/bin: a thread a triangle
     GPU_PTR(SurfaceSetup) surfaces; // [triangles of all chunks] of scenes with textures or colours of vertices
     GPU_PTR(BrickEntry) bricks;     // [brick_mask + 1]
     GPU_PTR(BrickItem) items;       // [item_capacity]
+    GPU_PTR(ItemVoxels) voxels;     // [item_capacity]
     GPU_PTR(LargeBlock) large;      // [large_capacity]
     GPU_PTR(BinCounters) counters;  // [1]
     vec3 origin;                    // world position of the grid's minimum corner
@@ -147,6 +148,7 @@ struct BinLargeParams // push constants of voxelize/bin_large: kBlockLanes threa
     GPU_CONST_PTR(LargeBlock) large;     // [large_capacity]
     GPU_PTR(BrickEntry) bricks;          // [brick_mask + 1]
     GPU_PTR(BrickItem) items;            // [item_capacity]
+    GPU_PTR(ItemVoxels) voxels;          // [item_capacity]
     GPU_PTR(BinCounters) counters;       // [1]
     uint window;
     uint brick_mask;
@@ -179,13 +181,15 @@ struct CoverParams // push constants of voxelize/cover: a thread an item
     GPU_CONST_PTR(BrickEntry) bricks;
     GPU_CONST_PTR(BrickItem) items;
     GPU_PTR(ItemVoxels) voxels; // [items]
-    GPU_PTR(uint) masks;        // [kBrickMaskWords] for each range
+    GPU_PTR(uint) masks;        // for each range: of leaves, and with kMixed of their mixed voxels, kLeafMaskWords each
     GPU_CONST_PTR(BinCounters) counters;
     uint window;
 };
 #define VOXELIZE_COVER_CONSTANTS(CONSTANT)                                                                             \
     CONSTANT(0, bool, wide_keys, kWideKeys, false)                                                                     \
-    CONSTANT(1, MaterialClass, material_class, kMaterialClass, kClassPlain)
+    CONSTANT(1, bool, mixed, kMixed, false)                                                                            \
+    CONSTANT(2, bool, small, kSmall, false) /* items of small triangles, else of large ones */                         \
+    CONSTANT(3, MaterialClass, material_class, kMaterialClass, kClassPlain)
 GPU_KERNEL(voxelize, cover, Cover, CoverParams, VOXELIZE_COVER_CONSTANTS)
 
 struct CollectBricksParams // push constants of voxelize/collect_bricks: a thread a brick
@@ -201,7 +205,8 @@ struct CollectBricksParams // push constants of voxelize/collect_bricks: a threa
     GPU_PTR(DispatchArgs) args; // element 0 is set
     uint max_groups_x;
 };
-GPU_KERNEL(voxelize, collect_bricks, CollectBricks, CollectBricksParams, GPU_NO_CONSTANTS)
+#define VOXELIZE_COLLECT_BRICKS_CONSTANTS(CONSTANT) CONSTANT(0, bool, mixed, kMixed, false)
+GPU_KERNEL(voxelize, collect_bricks, CollectBricks, CollectBricksParams, VOXELIZE_COLLECT_BRICKS_CONSTANTS)
 
 struct PlaceBricksParams // push constants of voxelize/place_bricks: a thread a brick with voxels
 {
@@ -234,11 +239,13 @@ struct BrickLeavesParams // push constants of voxelize/brick_leaves: a thread a 
     GPU_CONST_PTR(uint) order;
     GPU_CONST_PTR(uint) masks;
     GPU_PTR(Node) nodes;
-    GPU_PTR(MixedVoxels) mixed; // [leaves]
+    GPU_PTR(MixedVoxels) mixed; // [leaves] with kMixed
     uint first_leaf;            // of nodes
     uint brick_count;
 };
-#define VOXELIZE_BRICK_LEAVES_CONSTANTS(CONSTANT) CONSTANT(0, bool, wide_keys, kWideKeys, false)
+#define VOXELIZE_BRICK_LEAVES_CONSTANTS(CONSTANT)                                                                      \
+    CONSTANT(0, bool, wide_keys, kWideKeys, false)                                                                     \
+    CONSTANT(1, bool, mixed, kMixed, false)
 GPU_KERNEL(voxelize, brick_leaves, BrickLeaves, BrickLeavesParams, VOXELIZE_BRICK_LEAVES_CONSTANTS)
 
 struct AttributesParams // push constants of voxelize/attributes: a thread an item
@@ -260,7 +267,8 @@ struct AttributesParams // push constants of voxelize/attributes: a thread an it
 };
 #define VOXELIZE_ATTRIBUTES_CONSTANTS(CONSTANT)                                                                        \
     CONSTANT(0, bool, wide_keys, kWideKeys, false)                                                                     \
-    CONSTANT(1, MaterialClass, material_class, kMaterialClass, kClassPlain)
+    CONSTANT(1, bool, mixed, kMixed, false)                                                                            \
+    CONSTANT(2, MaterialClass, material_class, kMaterialClass, kClassPlain)
 GPU_KERNEL(voxelize, attributes, Attributes, AttributesParams, VOXELIZE_ATTRIBUTES_CONSTANTS)
 GPU_KERNEL(voxelize, attributes_int64, AttributesInt64, AttributesParams, VOXELIZE_ATTRIBUTES_CONSTANTS)
 

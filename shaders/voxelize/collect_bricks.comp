@@ -5,7 +5,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "voxelize/bricks.h"
 
-GPU_ENTRY(CollectBricksParams, GPU_NO_CONSTANTS);
+GPU_ENTRY(CollectBricksParams, VOXELIZE_COLLECT_BRICKS_CONSTANTS);
 layout(local_size_x = kBricksGroup) in;
 
 #extension GL_KHR_shader_subgroup_arithmetic : require
@@ -40,7 +40,7 @@ void countBrick(uint brick, uint slot)
     uvec2 leaves = uvec2(0u);
     uint voxels = 0u;
     uint mixed = 0u;
-    uint first = brick * (kBrickMaskWords / 4u);
+    uint first = brick * ((kMixed ? 2u : 1u) * kLeafMaskWords / 4u);
     for (uint pair = gl_LocalInvocationIndex % kBrickLanes; pair < kBrickLeaves / 2u; pair += kBrickLanes)
     {
         uvec4 words = MASK_WORDS(first + pair);
@@ -48,7 +48,8 @@ void countBrick(uint brick, uint slot)
         found <<= (2u * pair) & 31u;
         leaves |= pair < kBrickLeaves / 4u ? uvec2(found, 0u) : uvec2(0u, found);
         voxels += bitCounts(words);
-        mixed += bitCounts(MASK_WORDS(first + kBrickLeaves / 2u + pair));
+        if (kMixed)
+            mixed += bitCounts(MASK_WORDS(first + kLeafMaskWords / 4u + pair));
     }
     if (voxels != 0u)
     {

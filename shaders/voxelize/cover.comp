@@ -1,7 +1,7 @@
 #version 460
 // SPDX-License-Identifier: MIT
-// The voxels of the items, a thread an item, and the masks of the leaves of their bricks. Neighbours are mostly items of
-// one brick, whose masks stay in a cache.
+// The voxels of the items of large triangles, and the masks of the leaves of all items' bricks, a thread an item.
+// Neighbours are mostly items of one brick, whose masks stay in a cache.
 #extension GL_GOOGLE_include_directive : require
 #include "voxelize/bricks.h"
 
@@ -21,15 +21,20 @@ const uint kMode = kModeCoverage;
 
 #ifdef BOUND
 STORAGE(2, uint, masks);
+STORAGE(14, ItemVoxels, voxels);
 #define MASK_WORD(I) storage_masks.data[I]
+#define ITEM_VOXELS(I) storage_voxels.data[I]
 #else
 #define MASK_WORD(I) params.masks.data[I]
+#define ITEM_VOXELS(I) params.voxels.data[I]
 #endif
+
+const uint kMaskWords = kMixed ? 2u * kLeafMaskWords : kLeafMaskWords; // of a brick
 
 // Takes away what cut-outs leave out. brick: its first voxel.
 void cutOut(BrickItem item, TriangleSetup setup, ivec3 brick, inout ItemVoxels voxels)
 {
-    Surface surface = surfaceOf(setupOf(item), setup);
+    Surface surface = surfaceOf(item.triangle, setup);
     if (surface.alpha_mode == kAlphaOpaque)
         return;
     uint existing = voxels.info;
@@ -47,25 +52,32 @@ void cutOut(BrickItem item, TriangleSetup setup, ivec3 brick, inout ItemVoxels v
 void setVoxels(uint word, uint bits)
 {
     uint again = atomicOr(MASK_WORD(word), bits) & bits;
-    if (again != 0u)
+    if (kMixed && again != 0u)
         atomicOr(MASK_WORD(word + kLeafMaskWords), again);
 }
 
 void main()
 {
-    uint i = threadIndex();
-    if (i >= params.counters.data[0].covered_items)
+    uint small_items = params.counters.data[0].small_items;
+    uint end = params.counters.data[0].covered_items;
+    uint i = threadIndex() + (kSmall ? 0u : small_items);
+    if (i >= (kSmall ? min(small_items, end) : end))
         return;
     BrickItem item = loadItem(i);
     BrickEntry entry = loadBrick(item.entry);
-    ivec3 brick = brickCorner(entry);
-    TriangleSetup setup = loadSetup(setupOf(item));
-    ItemVoxels voxels = coverItem(itemTriangle(item, setup, brick));
-    if (kMaterialClass == kClassAlpha)
-        cutOut(item, setup, brick, voxels);
-    params.voxels.data[i] = voxels;
+    ItemVoxels voxels = ITEM_VOXELS(i);
+    if (!kSmall || kMaterialClass == kClassAlpha)
+    {
+        TriangleSetup setup = loadSetup(item.triangle);
+        ivec3 brick = brickCorner(entry);
+        if (!kSmall)
+            voxels = coverColumns(tileTriangle(voxels.info, setup, brick));
+        if (kMaterialClass == kClassAlpha)
+            cutOut(item, setup, brick, voxels);
+        ITEM_VOXELS(i) = voxels;
+    }
     // Voxels of an item mostly share a word with the one before: their bits take one atomic.
-    uint first_word = entry.mask_lo * kBrickMaskWords;
+    uint first_word = entry.mask_lo * kMaskWords;
     uint word = 0u;
     uint bits = 0u;
     for (ItemVoxels left = voxels; hasVoxels(left);)

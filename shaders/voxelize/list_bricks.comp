@@ -17,6 +17,11 @@ layout(local_size_x = kListGroup) in;
 #define BRICKS_BINDING 0
 #include "lib/brick_loads.glsl"
 
+DispatchArgs itemGroups(uint items)
+{
+    return foldedArgs((items + kItemsGroup - 1u) / kItemsGroup, params.max_groups_x);
+}
+
 void main()
 {
     uint first_entry = workgroupIndex() * (kListGroup * kListItems) + gl_LocalInvocationIndex;
@@ -62,7 +67,9 @@ void main()
         uint items = fits ? atomicOr(params.counters.data[0].item_count, 0u) : 0u;
         params.counters.data[0].listed_count = listed;
         params.counters.data[0].covered_items = items;
-        params.counters.data[0].cover = foldedArgs((items + kItemsGroup - 1u) / kItemsGroup, params.max_groups_x);
+        uint small_items = min(params.counters.data[0].small_items, items);
+        params.counters.data[0].small = itemGroups(small_items);
+        params.counters.data[0].cover = itemGroups(items - small_items);
         params.counters.data[0].collect = foldedArgs((listed + kBricksGroup - 1u) / kBricksGroup, params.max_groups_x);
         atomicExchange(params.counters.data[0].arrived, 0u);
     }

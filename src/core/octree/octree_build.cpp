@@ -120,7 +120,7 @@ void listBricks(vk::FrameGraph& graph, const Grid& grid, BrickBuffers& bricks, O
     graph.fill(work.ranges, 0);
     graph.fill(work.args, 0);
     {
-        vk::Pass pass = graph.addPass(gpu::voxelize::CollectBricks{});
+        vk::Pass pass = graph.addPass(gpu::voxelize::CollectBricks{.mixed = bricks.has_mixed});
         pass.dispatchIndirect(bricks.counters, &gpu::BinCounters::collect,
                               {.bricks = pass.readWrite(bricks.table),
                                .ranges = pass.readWrite(bricks.ranges),

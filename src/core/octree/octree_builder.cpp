@@ -118,13 +118,14 @@ bool hasLargeTriangles(const GpuScene& scene, const Grid& grid)
 bool areBeyondBricks(const gpu::BinCounters& bins)
 {
     return bins.item_carry != 0 || bins.wide_count != 0 || bins.item_count > kIndicesMax ||
-           bins.brick_count > kIndicesMax / gpu::kBrickMaskWords;
+           bins.brick_count > kIndicesMax / (2 * gpu::kLeafMaskWords);
 }
 
-bool haveRoom(const BrickCapacities& capacities, const vk::Device& device)
+bool haveRoom(const BrickCapacities& capacities, bool mixed, const vk::Device& device)
 {
-    return capacities.entries <= VoxelizeCapacities::kBricksMax && capacities.bytes() <= device.memory().roomBytes() &&
-           capacities.largestBytes() <= device.report().max_buffer_bytes;
+    return capacities.entries <= VoxelizeCapacities::kBricksMax &&
+           capacities.bytes(mixed) <= device.memory().roomBytes() &&
+           capacities.largestBytes(mixed) <= device.report().max_buffer_bytes;
 }
 
 // The capacities that a run by bricks needs, as far as it tells.
@@ -209,7 +210,7 @@ OctreeBuilder::OctreeBuilder(vk::Device& device, const PosedGpuScene& scene, con
         suitsBricks(scene.uploaded(), grid, options.coverage))
     {
         m_brick_capacities = BrickCapacities::estimate(scene.uploaded(), grid);
-        if (haveRoom(m_brick_capacities, device))
+        if (haveRoom(m_brick_capacities, m_sum_form.mixed, device))
         {
             m_step = {&OctreeBuilder::coverByBricks, &OctreeBuilder::learnBricks};
         }
@@ -458,8 +459,9 @@ void OctreeBuilder::coverByBricks(vk::FrameGraph& graph)
 {
     if (!m_bricks)
     {
-        m_device.memory().require(m_brick_capacities.bytes(), "voxelization");
-        m_bricks.emplace(Bricks{{m_device, m_brick_capacities}, {m_device, m_brick_capacities.entries}});
+        m_device.memory().require(m_brick_capacities.bytes(m_sum_form.mixed), "voxelization");
+        m_bricks.emplace(
+            Bricks{{m_device, m_brick_capacities, m_sum_form.mixed}, {m_device, m_brick_capacities.entries}});
     }
     coverBricks(graph, {m_scene, m_tile, m_bricks->bricks});
     listBricks(graph, m_tile.grid, m_bricks->bricks, m_bricks->work);
@@ -478,7 +480,7 @@ void OctreeBuilder::learnBricks()
     {
         m_bricks.reset();
         requireRetry();
-        if (areBeyondBricks(bins) || !haveRoom(grown, m_device))
+        if (areBeyondBricks(bins) || !haveRoom(grown, m_sum_form.mixed, m_device))
         {
             m_step = {&OctreeBuilder::cover, &OctreeBuilder::learnCoverage};
         }
@@ -516,12 +518,12 @@ void OctreeBuilder::learnBricks()
 void OctreeBuilder::numberBricks(vk::FrameGraph& graph)
 {
     const std::uint32_t leaf_count = m_result.octree.levels.back().node_count;
-    if (m_bricks->bricks.mixed.count() == 0)
+    if (m_sum_form.mixed && m_bricks->bricks.mixed.count() == 0)
     {
         m_device.memory().require(leaf_count * sizeof(gpu::MixedVoxels), "the leaves of bricks");
         m_bricks->bricks.mixed = {m_device, "voxelize/mixed_voxels", leaf_count};
     }
-    prepareLeaves(m_device, m_tile.grid);
+    prepareLeaves(m_device, m_tile.grid, m_bricks->bricks);
     numberNodes(graph, m_bricks->bricks.table, m_bricks->work, m_result.octree, m_result.octree.levels.size() - 1);
     placeLeaves(graph, m_tile.grid, m_bricks->bricks, m_bricks->work.items, m_result.octree);
 }
@@ -543,10 +545,11 @@ void OctreeBuilder::brickAttributes(vk::FrameGraph& graph)
     DeviceTree& octree = m_result.octree;
     if (!m_sums)
     {
-        m_device.memory().require(octree.voxel_count * sizeof(gpu::Attribute) + m_mixed_count * sizeof(gpu::VoxelSums),
+        const std::uint32_t sum_count = m_sum_form.mixed ? m_mixed_count : octree.voxel_count;
+        m_device.memory().require(octree.voxel_count * sizeof(gpu::Attribute) + sum_count * sizeof(gpu::VoxelSums),
                                   "averaging the attributes");
         vk::BufferOf<gpu::Attribute> voxel_attributes(m_device, "octree/voxel_attributes", octree.voxel_count);
-        m_sums.emplace(m_device, octree.voxel_count, m_mixed_count, false);
+        m_sums.emplace(m_device, octree.voxel_count, sum_count, false);
         octree.voxel_attributes = std::move(voxel_attributes);
     }
     shadeBricks(graph, {m_scene, m_tile, m_bricks->bricks}, m_item_count, m_sum_form.int64, *m_sums, octree);

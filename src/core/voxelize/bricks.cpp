@@ -22,6 +22,7 @@ constexpr std::uint64_t kCapacityMin = 1024;
 constexpr std::uint64_t kCapacityGuessMax = 1 << 20; // the area may lie outside of the grid, for the most part
 constexpr std::uint64_t kItemsMin = 1 << 14;
 constexpr std::uint64_t kItemsGuessMax = 1 << 25;
+constexpr std::uint64_t kSetupsMax = 1 << 30; // kernels count them in words of 16 bytes
 
 // The highest class of a scene, whose kernels serve the others.
 MaterialClass classOf(const GpuScene& scene)
@@ -76,6 +77,7 @@ std::uint32_t binChunks(vk::FrameGraph& graph, const BrickJob& job, const vk::Bu
     params.surfaces = pass.accumulate(buffers.surfaces);
     params.bricks = pass.accumulate(buffers.table);
     params.items = pass.accumulate(buffers.items);
+    params.voxels = pass.accumulate(buffers.voxels);
     params.large = pass.accumulate(buffers.large);
     params.counters = pass.readWrite(buffers.counters);
     params.origin = job.tile.grid.origin;
@@ -108,6 +110,7 @@ void binAll(vk::FrameGraph& graph, const BrickJob& job)
                            .large = pass.read(buffers.large),
                            .bricks = pass.accumulate(buffers.table),
                            .items = pass.accumulate(buffers.items), // each element once, in any order
+                           .voxels = pass.accumulate(buffers.voxels),
                            .counters = pass.readWrite(buffers.counters),
                            .window = gpu::packWindow(job.tile.grid.depth, job.tile.depth, job.tile.index),
                            .brick_mask = static_cast<std::uint32_t>(buffers.table.count() - 1),
@@ -116,13 +119,36 @@ void binAll(vk::FrameGraph& graph, const BrickJob& job)
                           divideUp(buffers.large.count() * lanes, gpu::kLargeGroup));
 }
 
+// args: of the workgroups for items of small or of large triangles.
+void coverItems(vk::FrameGraph& graph, const BrickJob& job, bool small, gpu::DispatchArgs gpu::BinCounters::*args)
+{
+    BrickBuffers& buffers = job.buffers;
+    vk::Pass pass = graph.addPass(gpu::voxelize::Cover{.wide_keys = hasWideKeys(job.tile.grid),
+                                                       .mixed = buffers.has_mixed,
+                                                       .small = small,
+                                                       .material_class = classOf(job.scene.uploaded())});
+    readColorTables(pass, job.scene.uploaded());
+    pass.dispatchIndirect(buffers.counters, args,
+                          {.scene = job.scene.read(pass),
+                           .setups = pass.read(buffers.setups),
+                           .surfaces = pass.read(buffers.surfaces),
+                           .bricks = pass.read(buffers.table),
+                           .items = pass.read(buffers.items),
+                           .voxels = pass.accumulate(buffers.voxels), // a thread its own
+                           .masks = pass.accumulate(buffers.masks),
+                           .counters = pass.read(buffers.counters),
+                           .window = gpu::packWindow(job.tile.grid.depth, job.tile.depth, job.tile.index)},
+                          divideUp(buffers.items.count(), gpu::kItemsGroup));
+}
+
 template <typename Kernel>
 void addAttributes(vk::FrameGraph& graph, const BrickJob& job, std::uint32_t item_count, AttributeBuffers& attributes,
                    DeviceTree& octree)
 {
     BrickBuffers& buffers = job.buffers;
-    vk::Pass pass =
-        graph.addPass(Kernel{.wide_keys = hasWideKeys(job.tile.grid), .material_class = classOf(job.scene.uploaded())});
+    vk::Pass pass = graph.addPass(Kernel{.wide_keys = hasWideKeys(job.tile.grid),
+                                         .mixed = buffers.has_mixed,
+                                         .material_class = classOf(job.scene.uploaded())});
     readColorTables(pass, job.scene.uploaded());
     pass.dispatch(item_count, {.scene = job.scene.read(pass),
                                .setups = pass.read(buffers.setups),
@@ -161,26 +187,32 @@ BrickCapacities BrickCapacities::estimate(const GpuScene& scene, const Grid& gri
     return result;
 }
 
-std::uint64_t BrickCapacities::bytes() const
+std::uint64_t BrickCapacities::maskWords(bool mixed) const
+{
+    return bricks * gpu::kLeafMaskWords * (mixed ? 2 : 1);
+}
+
+std::uint64_t BrickCapacities::bytes(bool mixed) const
 {
     return entries * (sizeof(gpu::BrickEntry) + sizeof(gpu::WorkItem)) + setups * sizeof(gpu::TriangleSetup) +
            surfaces * sizeof(gpu::SurfaceSetup) + items * (sizeof(gpu::BrickItem) + sizeof(gpu::ItemVoxels)) +
-           large * sizeof(gpu::LargeBlock) +
-           bricks * (sizeof(gpu::BrickRange) + 2 * sizeof(gpu::uint) + gpu::kBrickMaskWords * sizeof(gpu::uint));
+           large * sizeof(gpu::LargeBlock) + bricks * (sizeof(gpu::BrickRange) + 2 * sizeof(gpu::uint)) +
+           maskWords(mixed) * sizeof(gpu::uint);
 }
 
-std::uint64_t BrickCapacities::largestBytes() const
+std::uint64_t BrickCapacities::largestBytes(bool mixed) const
 {
     return std::max({entries * sizeof(gpu::BrickEntry), setups * sizeof(gpu::TriangleSetup),
-                     items * sizeof(gpu::ItemVoxels), bricks * gpu::kBrickMaskWords * sizeof(gpu::uint)});
+                     items * sizeof(gpu::ItemVoxels), maskWords(mixed) * sizeof(gpu::uint)});
 }
 
-BrickBuffers::BrickBuffers(vk::Device& device, const BrickCapacities& capacities)
-    : setups(device, "voxelize/setups", capacities.setups), surfaces(device, "voxelize/surfaces", capacities.surfaces),
-      table(device, "voxelize/bricks", capacities.entries), ranges(device, "voxelize/brick_ranges", capacities.bricks),
-      items(device, "voxelize/items", capacities.items), voxels(device, "voxelize/item_voxels", capacities.items),
+BrickBuffers::BrickBuffers(vk::Device& device, const BrickCapacities& capacities, bool of_mixed)
+    : has_mixed(of_mixed), setups(device, "voxelize/setups", capacities.setups),
+      surfaces(device, "voxelize/surfaces", capacities.surfaces), table(device, "voxelize/bricks", capacities.entries),
+      ranges(device, "voxelize/brick_ranges", capacities.bricks), items(device, "voxelize/items", capacities.items),
+      voxels(device, "voxelize/item_voxels", capacities.items),
       large(device, "voxelize/large_blocks", capacities.large),
-      masks(device, "voxelize/brick_masks", capacities.bricks * gpu::kBrickMaskWords),
+      masks(device, "voxelize/brick_masks", capacities.maskWords(of_mixed)),
       counters(device, "voxelize/bin_counters", 1), nodes(device, "voxelize/brick_counters", 1),
       work_bricks(device, "voxelize/work_bricks", capacities.bricks),
       order(device, "voxelize/brick_order", capacities.bricks),
@@ -191,14 +223,13 @@ BrickBuffers::BrickBuffers(vk::Device& device, const BrickCapacities& capacities
 
 bool suitsBricks(const GpuScene& scene, const Grid& grid, Coverage coverage)
 {
-    return coverage == Coverage::Thin && setupCount(scene) < 1ULL << gpu::kItemTileShift && grid.nodeLevels() >= 2 &&
+    return coverage == Coverage::Thin && setupCount(scene) <= kSetupsMax && grid.nodeLevels() >= 2 &&
            scene.has_attributes && !(scene.emission_scale > 0.0F);
 }
 
 void coverBricks(vk::FrameGraph& graph, const BrickJob& job)
 {
     BrickBuffers& buffers = job.buffers;
-    const bool wide = hasWideKeys(job.tile.grid);
     const std::uint32_t max_groups_x = graph.device().limits().maxComputeWorkGroupCount[0];
     graph.fill(buffers.table, 0);
     graph.fill(buffers.counters, 0);
@@ -217,29 +248,17 @@ void coverBricks(vk::FrameGraph& graph, const BrickJob& job)
                        .item_capacity = static_cast<std::uint32_t>(buffers.items.count()),
                        .large_capacity = static_cast<std::uint32_t>(buffers.large.count())});
     }
-    vk::Pass pass =
-        graph.addPass(gpu::voxelize::Cover{.wide_keys = wide, .material_class = classOf(job.scene.uploaded())});
-    readColorTables(pass, job.scene.uploaded());
-    pass.dispatchIndirect(buffers.counters, &gpu::BinCounters::cover,
-                          {.scene = job.scene.read(pass),
-                           .setups = pass.read(buffers.setups),
-                           .surfaces = pass.read(buffers.surfaces),
-                           .bricks = pass.read(buffers.table),
-                           .items = pass.read(buffers.items),
-                           .voxels = pass.write(buffers.voxels),
-                           .masks = pass.readWrite(buffers.masks),
-                           .counters = pass.read(buffers.counters),
-                           .window = gpu::packWindow(job.tile.grid.depth, job.tile.depth, job.tile.index)},
-                          divideUp(buffers.items.count(), gpu::kItemsGroup));
+    coverItems(graph, job, true, &gpu::BinCounters::small);
+    coverItems(graph, job, false, &gpu::BinCounters::cover);
 }
 
-void prepareLeaves(vk::Device& device, const Grid& grid)
+void prepareLeaves(vk::Device& device, const Grid& grid, const BrickBuffers& buffers)
 {
     vk::KernelCache& kernels = device.kernels();
     kernels.get(gpu::voxelize::PlaceBricks{.wide_keys = hasWideKeys(grid)});
     kernels.get(gpu::octree::Scan{});
     kernels.get(gpu::voxelize::BrickBases{});
-    kernels.get(gpu::voxelize::BrickLeaves{.wide_keys = hasWideKeys(grid)});
+    kernels.get(gpu::voxelize::BrickLeaves{.wide_keys = hasWideKeys(grid), .mixed = buffers.has_mixed});
 }
 
 void placeLeaves(vk::FrameGraph& graph, const Grid& grid, BrickBuffers& buffers,
@@ -276,7 +295,7 @@ void placeLeaves(vk::FrameGraph& graph, const Grid& grid, BrickBuffers& buffers,
                                                                  .is_scanned = block_count > kBlocksUnscanned ? 1U : 0U,
                                                                  .brick_count = brick_count});
     }
-    vk::Pass pass = graph.addPass(gpu::voxelize::BrickLeaves{.wide_keys = wide});
+    vk::Pass pass = graph.addPass(gpu::voxelize::BrickLeaves{.wide_keys = wide, .mixed = buffers.has_mixed});
     pass.dispatch(std::uint64_t{brick_count} * gpu::kBrickLeaves, {.bricks = pass.read(buffers.table),
                                                                    .ranges = pass.read(buffers.ranges),
                                                                    .order = pass.read(buffers.order),
@@ -301,6 +320,11 @@ void shadeBricks(vk::FrameGraph& graph, const BrickJob& job, std::uint32_t item_
     else
     {
         addAttributes<gpu::voxelize::Attributes>(graph, job, item_count, attributes, octree);
+    }
+    if (!buffers.has_mixed)
+    {
+        resolveVoxels(graph, job.scene.uploaded(), attributes, octree);
+        return;
     }
     vk::Pass pass = graph.addPass(gpu::voxelize::ResolveLeaves{});
     readColorTables(pass, job.scene.uploaded());

@@ -30,11 +30,14 @@ struct BrickCapacities
     /// A guess from the scene's surface area and the grid; it suffices in most cases.
     static BrickCapacities estimate(const GpuScene& scene, const Grid& grid);
 
+    /// Of BrickBuffers::masks. mixed: BrickBuffers::has_mixed.
+    [[nodiscard]] std::uint64_t maskWords(bool mixed) const;
+
     /// The bytes of BrickBuffers, but for `mixed`, and of octree construction with a table of these.
-    [[nodiscard]] std::uint64_t bytes() const;
+    [[nodiscard]] std::uint64_t bytes(bool mixed) const;
 
     /// Of the largest of these buffers.
-    [[nodiscard]] std::uint64_t largestBytes() const;
+    [[nodiscard]] std::uint64_t largestBytes(bool mixed) const;
 
     bool operator==(const BrickCapacities&) const = default;
 };
@@ -42,8 +45,10 @@ struct BrickCapacities
 /// The buffers by which triangles get into bricks, and what is known of the bricks.
 struct BrickBuffers
 {
-    BrickBuffers(vk::Device& device, const BrickCapacities& capacities);
+    /// of_mixed: sums are kept of mixed voxels alone.
+    BrickBuffers(vk::Device& device, const BrickCapacities& capacities, bool of_mixed);
 
+    bool has_mixed;
     vk::BufferOf<gpu::TriangleSetup> setups;  // [setups]
     vk::BufferOf<gpu::SurfaceSetup> surfaces; // [surfaces]
     vk::BufferOf<gpu::BrickEntry> table;      // [entries] bricks; octree construction adds the nodes above them
@@ -51,14 +56,14 @@ struct BrickBuffers
     vk::BufferOf<gpu::BrickItem> items;       // [items] in the order of triangles, mostly
     vk::BufferOf<gpu::ItemVoxels> voxels;     // [items]
     vk::BufferOf<gpu::LargeBlock> large;      // [large]
-    vk::BufferOf<gpu::uint> masks;            // [bricks * gpu::kBrickMaskWords] of leaves, then of their mixed voxels
+    vk::BufferOf<gpu::uint> masks;            // [maskWords()] of each brick's leaves, then of their mixed voxels
     vk::BufferOf<gpu::BinCounters> counters;  // [1]
     vk::BufferOf<gpu::BrickCounters> nodes;   // [1] those of octree construction
     vk::BufferOf<gpu::uint> work_bricks;      // [bricks] of each work item of octree construction, the number in ranges
     vk::BufferOf<gpu::uint> order;            // [bricks] numbers in ranges, in the order of nodes
     vk::BufferOf<gpu::uint> partials;         // [ceil(bricks / gpu::kScanBlock)]
     vk::BufferOf<gpu::uint> total;            // [1]
-    vk::BufferOf<gpu::MixedVoxels> mixed;     // [leaves], allocated when their number is known
+    vk::BufferOf<gpu::MixedVoxels> mixed;     // [leaves] with has_mixed, allocated when their number is known
 };
 
 /// What is voxelized, and into which buffers.
@@ -77,7 +82,7 @@ bool suitsBricks(const GpuScene& scene, const Grid& grid, Coverage coverage);
 void coverBricks(vk::FrameGraph& graph, const BrickJob& job);
 
 /// Makes the kernels of placeLeaves(), so that recording it cannot fail.
-void prepareLeaves(vk::Device& device, const Grid& grid);
+void prepareLeaves(vk::Device& device, const Grid& grid, const BrickBuffers& buffers);
 
 /// Records the passes that number the voxels of bricks, and write the nodes of leaves. The nodes above must have their
 /// numbers (numberNodes), and buffers.mixed its size. work: [bricks first] work items of octree construction. Cost:
@@ -86,7 +91,8 @@ void placeLeaves(vk::FrameGraph& graph, const Grid& grid, BrickBuffers& buffers,
                  const vk::BufferOf<gpu::WorkItem>& work, DeviceTree& octree);
 
 /// Records the passes that write the attributes of the voxels. item_count: as counted. int64: two words of sums by
-/// one atomic. attributes.sums: [BinCounters::mixed_count]. Cost: items, fragments and leaves.
+/// one atomic. attributes.sums: [BinCounters::mixed_count] with has_mixed, else [voxels]. Cost: items, fragments and
+/// leaves.
 void shadeBricks(vk::FrameGraph& graph, const BrickJob& job, std::uint32_t item_count, bool int64,
                  AttributeBuffers& attributes, DeviceTree& octree);
 

@@ -347,6 +347,19 @@ void voxelizeCoverage(vk::FrameGraph& graph, const VoxelizeJob& job)
     walkAll(graph, {job});
 }
 
+void resolveVoxels(vk::FrameGraph& graph, const GpuScene& scene, AttributeBuffers& attributes, DeviceTree& octree)
+{
+    vk::Pass pass = graph.addPass(gpu::voxelize::Resolve{});
+    pass.dispatch(octree.voxel_count, {.scene = readColorTables(pass, scene),
+                                       .sums = pass.read(attributes.sums),
+                                       .emission_words = pass.read(octree.emission_words),
+                                       .attributes = pass.write(octree.voxel_attributes),
+                                       .max_fragments = pass.readWrite(attributes.max_fragments),
+                                       .voxel_count = octree.voxel_count,
+                                       .has_emission = octree.emission_words.count() != 0 ? 1U : 0U,
+                                       .sum_shift = attributes.sum_shift});
+}
+
 void voxelizeAttributes(vk::FrameGraph& graph, const VoxelizeJob& job, const vk::BufferOf<gpu::WorkItem>& leaves,
                         AttributeBuffers& attributes, DeviceTree& octree)
 {
@@ -365,17 +378,7 @@ void voxelizeAttributes(vk::FrameGraph& graph, const VoxelizeJob& job, const vk:
         resolveMixed(graph, job, leaves, attributes, octree);
         return;
     }
-    {
-        vk::Pass pass = graph.addPass(gpu::voxelize::Resolve{});
-        pass.dispatch(octree.voxel_count, {.scene = readColorTables(pass, job.scene.uploaded()),
-                                           .sums = pass.read(attributes.sums),
-                                           .emission_words = pass.read(octree.emission_words),
-                                           .attributes = pass.write(octree.voxel_attributes),
-                                           .max_fragments = pass.readWrite(attributes.max_fragments),
-                                           .voxel_count = octree.voxel_count,
-                                           .has_emission = emission ? 1U : 0U,
-                                           .sum_shift = attributes.sum_shift});
-    }
+    resolveVoxels(graph, job.scene.uploaded(), attributes, octree);
     if (emission)
     {
         rankEmissiveVoxels(graph, attributes, octree);

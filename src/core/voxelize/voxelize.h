@@ -200,6 +200,9 @@ void voxelizeCoverage(vk::FrameGraph& graph, const VoxelizeJob& job);
 void voxelizeAttributes(vk::FrameGraph& graph, const VoxelizeJob& job, const vk::BufferOf<gpu::WorkItem>& leaves,
                         AttributeBuffers& attributes, DeviceTree& octree);
 
+/// Records the pass that writes the attribute of each voxel, the mean of its sums.
+void resolveVoxels(vk::FrameGraph& graph, const GpuScene& scene, AttributeBuffers& attributes, DeviceTree& octree);
+
 /// Records the passes that average emission into octree.emission. Runs after voxelizeAttributes, when the emissive
 /// voxels have been counted and emission_sums and octree.emission are allocated. Cost: as voxelizeAttributes.
 void voxelizeEmission(vk::FrameGraph& graph, const VoxelizeJob& job, AttributeBuffers& attributes, DeviceTree& octree);
