@@ -93,11 +93,9 @@ public:
         {
         case Tunable::NodeLanes:
             return msOf(build(), {"octree/average"});
-        case Tunable::RowColumns:
-        case Tunable::BandLanes:
-            return msOf(build(), {"voxelize/bands", "voxelize/rows"});
+        case Tunable::BlockLanes:
+            return msOf(build(), {"voxelize/bin_large"});
         case Tunable::MixedSums:
-        case Tunable::VoxelForm:
             return sumMs(build());
         case Tunable::PathForm:
             return sumMs(paths());
@@ -185,14 +183,11 @@ bool canHave(const vk::Device& device, Tunable tunable, std::uint32_t value)
         return value <= lanesMax(device);
     case Tunable::BeamLanes:
         return value <= beamLanesMax(device);
-    case Tunable::BandLanes:
-        return value * tunedValue(device, Tunable::RowColumns) >= RowShape::kProductMin;
     case Tunable::SubgroupSize:
         return value == 0 || (report.min_subgroup_size != 0 && value >= report.min_subgroup_size &&
                               value <= report.max_subgroup_size);
-    case Tunable::RowColumns:
+    case Tunable::BlockLanes:
     case Tunable::MixedSums:
-    case Tunable::VoxelForm:
     case Tunable::PathForm:
     case Tunable::Loads:
         break;

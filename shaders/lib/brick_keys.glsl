@@ -37,6 +37,16 @@ uvec2 parentKey(uvec2 key)
            kBrickKeyTag;
 }
 
+// The key of a child of a node, from 0 to 63.
+uvec2 childKey(uvec2 key, uint child)
+{
+    if (!kWideKeys)
+        return uvec2((key.x << 6) | child, 0u);
+    uvec2 code = key & ~kBrickKeyTag;
+    uint low = ((code.x << 6) & ((1u << kBrickKeyBits) - 1u)) | child;
+    return uvec2(low, (code.y << 6) | (code.x >> (kBrickKeyBits - 6u))) | kBrickKeyTag;
+}
+
 bool isSameKey(uvec2 a, uvec2 b)
 {
     return a.x == b.x && (!kWideKeys || a.y == b.y);

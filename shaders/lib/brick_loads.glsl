@@ -18,24 +18,11 @@ BrickEntry loadBrick(uint entry)
     return BrickEntry(words.x, words.y, words.z, words.w);
 }
 
-// What is mixed of the leaf in an entry of a table of `capacity` entries.
-MixedVoxels loadMixed(uint capacity, uint entry)
-{
-    uvec4 words = texelFetch(texels4_bricks, int(capacity + entry));
-    return MixedVoxels(words.x, words.y, words.z, words.w);
-}
-
 #else
 
 BrickEntry loadBrick(uint entry)
 {
     return params.bricks.data[entry];
-}
-
-MixedVoxels loadMixed(uint capacity, uint entry)
-{
-    uint64_t behind = uint64_t(params.bricks) + uint64_t(capacity) * kBrickBytes;
-    return MixedVoxels_ConstPtr(behind).data[entry];
 }
 
 #endif

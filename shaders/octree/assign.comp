@@ -1,7 +1,6 @@
 #version 460
 // SPDX-License-Identifier: MIT
-// Sets the child bases of every node of a level from the prefix sum of child counts. Where a leaf's entry in the brick
-// table has room for it, the entry gets the number of the leaf's first voxel.
+// Sets the child bases of every node of a level from the prefix sum of child counts.
 #extension GL_GOOGLE_include_directive : require
 #include "octree/octree.h"
 
@@ -56,16 +55,15 @@ uint childrenOf(FourNodes four)
 
 void setBases(FourNodes four, uint base)
 {
-    bool tell_bricks = params.tell_bricks != 0u;
     uvec3 bases = base + uvec3(four.counts.x, four.counts.x + four.counts.y, childrenOf(four) - four.counts.w);
     if (four.are_nodes.x)
-        setBase(params.nodes, params.bricks, four.nodes.x, four.masks_lo.x, base, tell_bricks);
+        setBase(params.nodes, four.nodes.x, four.masks_lo.x, base);
     if (four.are_nodes.y)
-        setBase(params.nodes, params.bricks, four.nodes.y, four.masks_lo.y, bases.x, tell_bricks);
+        setBase(params.nodes, four.nodes.y, four.masks_lo.y, bases.x);
     if (four.are_nodes.z)
-        setBase(params.nodes, params.bricks, four.nodes.z, four.masks_lo.z, bases.y, tell_bricks);
+        setBase(params.nodes, four.nodes.z, four.masks_lo.z, bases.y);
     if (four.are_nodes.w)
-        setBase(params.nodes, params.bricks, four.nodes.w, four.masks_lo.w, bases.z, tell_bricks);
+        setBase(params.nodes, four.nodes.w, four.masks_lo.w, bases.z);
 }
 
 void main()

@@ -1,16 +1,14 @@
 // SPDX-License-Identifier: MIT
-// Child bases of nodes, and the levels of listed nodes, from the leaves up.
+// Child bases of nodes, and the levels of listed nodes, from the lowest one up.
 #ifndef ZVO_SHADERS_OCTREE_NODES_GLSL
 #define ZVO_SHADERS_OCTREE_NODES_GLSL
 
 #include "lib/dispatch.glsl"
 #include "octree/octree.h"
 
-// Sets the child base of a node. tell_bricks: the node's entry in the brick table gets the base, too.
-void setBase(Node_Ptr nodes, BrickEntry_Ptr bricks, uint node, uint mask_lo, uint base, bool tell_bricks)
+// Sets the child base of a node.
+void setBase(Node_Ptr nodes, uint node, uint mask_lo, uint base)
 {
-    if (tell_bricks)
-        bricks.data[nodes.data[node].base_hi].base = base;
     nodes.data[node].base_lo = base;
     nodes.data[node].base_hi = base + bitCount(mask_lo);
 }

@@ -22,16 +22,14 @@ uint numberLevel(uint level, uint first_node)
         placeNode(params.items.data[range.first + gl_LocalInvocationIndex], level == 0u, children);
     memoryBarrierBuffer();
     barrier();
-    bool are_leaves = level == params.leaf_level;
     uint node = first_node + gl_LocalInvocationIndex;
     uvec2 masks = uvec2(0u);
     if (is_node)
         masks = uvec2(params.nodes.data[node].mask_lo, params.nodes.data[node].mask_hi);
     uint total;
-    uint base = workgroupExclusiveAdd(bitCount(masks.x) + bitCount(masks.y), total);
-    base += are_leaves ? 0u : first_node + range.count;
+    uint base = first_node + range.count + workgroupExclusiveAdd(bitCount(masks.x) + bitCount(masks.y), total);
     if (is_node)
-        setBase(params.nodes, params.bricks, node, masks.x, base, are_leaves && !kWideKeys);
+        setBase(params.nodes, node, masks.x, base);
     memoryBarrierBuffer();
     barrier();
     return range.count;

@@ -9,8 +9,6 @@
 
 GPU_NAMESPACE_BEGIN
 
-const uint kCollectGroup = 64u; // threads of a workgroup of octree/collect
-const uint kCollectItems = 16u; // table entries that a thread of it reads, at most 32
 const uint kNodesGroup = 64u;   // threads of a workgroup where one thread takes one node
 const uint kScanGroup = 64u;    // threads of a workgroup that scans: few, as barriers are expensive on CPUs
 const uint kScanItems = 16u;    // elements a thread of such a workgroup takes
@@ -20,28 +18,13 @@ const uint kRootLevels = 2u;    // levels that it takes
 const uint kAssignGroup = 128u; // threads of a workgroup of octree/assign
 const uint kAssignItems = 8u;   // nodes that a thread of it takes: kScanBlock in all
 
-/// The work items of one level of nodes. Element 0 is for the leaves or, where the octree is made by
-/// bricks, for the bricks; the last one for the root.
+/// The work items of one level of nodes. Element 0 of several is for the lowest level, the last one for the root.
 struct LevelRange
 {
     uint first;
     uint count;
 };
 GPU_BUFFER(LevelRange, 4);
-
-struct CollectParams // push constants of octree/collect
-{
-    GPU_PTR(BrickEntry) bricks;      // [brick_capacity] leaves; with kMixed, MixedVoxels behind them get `first`
-    GPU_PTR(WorkItem) items;         // [brick_capacity]
-    GPU_PTR(BrickCounters) counters; // [1]
-    GPU_PTR(LevelRange) ranges;      // [kNodeLevelsMax] element 0 is set
-    GPU_PTR(DispatchArgs) args;      // [kNodeLevelsMax] element 0 is set
-    uint brick_capacity;
-    uint max_groups_x;
-};
-#define OCTREE_COLLECT_CONSTANTS(CONSTANT)                                                                             \
-    CONSTANT(0, bool, mixed, kMixed, false) /* MixedVoxels stand behind the table */
-GPU_KERNEL(octree, collect, Collect, CollectParams, OCTREE_COLLECT_CONSTANTS)
 
 struct ParentsParams // push constants of octree/parents
 {
@@ -51,7 +34,7 @@ struct ParentsParams // push constants of octree/parents
     GPU_PTR(LevelRange) ranges; // [kNodeLevelsMax] cleared; element height + 1 is set
     GPU_PTR(DispatchArgs) args; // [kNodeLevelsMax] cleared; element height + 1 is set: for one thread an item
     uint brick_mask;
-    uint height; // 0: leaves
+    uint height; // 0: the lowest level
     uint max_groups_x;
 };
 #define OCTREE_PARENTS_CONSTANTS(CONSTANT)                                                                             \
@@ -65,7 +48,6 @@ struct NumberParams // push constants of octree/number: one workgroup, a thread 
     GPU_CONST_PTR(LevelRange) ranges; // [level_count]
     GPU_PTR(Node) nodes;
     uint level_count;
-    uint leaf_level; // whose children are voxels
 };
 #define OCTREE_NUMBER_CONSTANTS(CONSTANT)                                                                              \
     CONSTANT(0, bool, wide_keys, kWideKeys, false) /* the octree has more than kNarrowLevelsMax levels */
@@ -96,13 +78,11 @@ GPU_KERNEL(octree, scan, Scan, ScanParams, GPU_NO_CONSTANTS)
 struct AssignParams // push constants of octree/assign
 {
     GPU_PTR(Node) nodes;
-    GPU_PTR(BrickEntry) bricks;
     GPU_CONST_PTR(uint) partials; // [ceil(node_count / kScanBlock)] children of kScanBlock nodes each
     uint is_scanned;              // 1: partials are exclusive prefix sums already
     uint first_node;
     uint node_count;
-    uint first_child; // node index of the next level's first node; 0 in a leaf: voxels
-    uint tell_bricks; // 1: write the first child to the nodes' entries in the brick table
+    uint first_child; // node index of the next level's first node
 };
 GPU_KERNEL(octree, assign, Assign, AssignParams, GPU_NO_CONSTANTS)
 

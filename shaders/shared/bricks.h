@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The brick table: an open-addressing hash table of octree nodes under construction, leaves and inner nodes alike.
+// The brick table: an open-addressing hash table of octree nodes under construction.
 #ifndef ZVO_SHADERS_SHARED_BRICKS_H
 #define ZVO_SHADERS_SHARED_BRICKS_H
 
@@ -17,10 +17,9 @@ GPU_NAMESPACE_BEGIN
 ///          | key_lo | mask_lo| mask_hi| key_hi |   wide
 ///
 /// A first word of 0 means that the entry is free. Both words of a wide key are set by the end of the dispatch that
-/// sets them. The masks are those of Node. base is the node's index while the octree is built, and in a leaf,
-/// afterwards, its first voxel. With wide keys base is not available: once a node has its index, that takes the place
-/// of mask_lo, as the masks are then in the node. While voxelization covers bricks, mask_lo is a brick's number among
-/// them.
+/// sets them. The masks are those of Node. base is the node's index, once it has one. With wide keys base is not
+/// available: the index takes the place of mask_lo, as the masks are then in the node. While voxelization covers
+/// bricks, mask_lo is a brick's number among them.
 struct BrickEntry
 {
     uint key;
@@ -30,8 +29,7 @@ struct BrickEntry
 };
 GPU_BUFFER(BrickEntry, 16);
 
-/// The mixed voxels of a leaf: those that several fragments share. A voxelization that keeps sums of these alone has as
-/// many elements behind the entries of its table, in the same order; one by bricks has an element a leaf.
+/// The mixed voxels of a leaf, those that several fragments share, where sums are kept of them alone.
 ///
 ///     byte 0        4        8        12       16
 ///          | mask_lo| mask_hi| first  | 0      |
@@ -65,11 +63,8 @@ GPU_BUFFER(WorkItem, 4);
 struct BrickCounters
 {
     uint node_count;     // nodes listed so far
-    uint voxel_count;    // voxels in the leaves, modulo 2^32
-    uint voxel_carry;    // how often that wrapped around
-    uint overflow_count; // inserts that found no slot; in a build those of leaves are in RasterCounters
-    uint mixed_count;    // mixed voxels
-    uint arrived[10];    // threads that have listed the nodes of a level, leaves first (lib/arrivals.glsl)
+    uint overflow_count; // inserts that found no slot
+    uint arrived[10];    // threads that have listed the nodes of a level, from the lowest up (lib/arrivals.glsl)
 };
 GPU_BUFFER(BrickCounters, 4);
 

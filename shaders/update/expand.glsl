@@ -12,16 +12,6 @@
 #include "lib/ranks.glsl"
 #include "update/update.h"
 
-uvec2 childKey(uvec2 key, uint cell)
-{
-    if (!kWideKeys)
-        return uvec2((key.x << 6) | cell, 0u);
-    uvec2 code = key & ~kBrickKeyTag;
-    return uvec2(((code.x << 6) | cell) & ((1u << kBrickKeyBits) - 1u),
-                 (code.y << 6) | (code.x >> (kBrickKeyBits - 6u))) |
-           kBrickKeyTag;
-}
-
 // The child of a touched node's base node, which must exist, in a cell. rank: of the base octree's node, where
 // attributes need it; in an octree, the index of its attributes.
 RankedNode baseChild(TouchedNode parent, uint cell, bool are_leaves)

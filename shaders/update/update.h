@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // What the kernels of dynamic update share with the host.
 //
-// A layer is what voxelization makes of one moving mesh: a brick table with its leaves, and sums over the fragments of
-// each of its voxels. An overlay is a copy of every path of a base tree that leads to a leaf which some layer has,
+// A layer is what voxelization makes of one moving mesh: its bricks, their leaves, and sums over the fragments of each
+// of its voxels. An overlay is a copy of every path of a base tree that leads to a leaf which some layer has,
 // merged with the layers. It stands behind the base tree's nodes and attributes, in the same buffers:
 //
 //   - nodes[0] is the root that is traced: a copy of the root chosen last. Nobody else reads or writes it.
@@ -27,6 +27,7 @@
 #include "shared/octree.h"
 #include "shared/scene.h"
 #include "shared/svdag.h"
+#include "voxelize/bricks.h"
 #include "voxelize/voxelize.h"
 
 GPU_ENUM(MergeRule) // kMergeAverage and so on
@@ -56,16 +57,9 @@ struct LayerCounters
 {
     uint leaf_count;
     uint voxel_count;
-    uint failed;         // 1: something had no room, the layer is of no use
-    uint overflow_count; // leaves that found no slot in the brick table
-    uint big_count;      // the largest counts of a material class, as in RasterCounters
-    uint block_count;
-    uint blocks_exceeded;
-    uint nonfinite; // triangles that were left out, by reason
-    uint out_of_range;
-    uint outside;
-    uint zero_area;
-    uint arrived; // threads that have listed leaves (lib/arrivals.glsl)
+    uint failed;      // 1: something had no room, the layer is of no use
+    uint arrived;     // threads that have listed leaves (lib/arrivals.glsl)
+    BinCounters bins; // of its voxelization
 };
 GPU_BUFFER(LayerCounters, 4);
 
@@ -141,19 +135,20 @@ struct OverlayState
 };
 GPU_BUFFER(OverlayState, 8);
 
-struct LayerLeavesParams // push constants of update/layer_leaves
+struct LayerLeavesParams // push constants of update/layer_leaves: a workgroup a brick, a thread a leaf
 {
-    GPU_PTR(BrickEntry) bricks;               // [brick_capacity], leaves only
-    GPU_PTR(uvec2) keys;                      // [leaf_capacity]
-    GPU_PTR(Node) leaves;                     // [leaf_capacity]
-    GPU_PTR(LayerCounters) counters;          // [1] cleared
-    GPU_PTR(LayerCounters) reports;           // copies that the host can read
-    GPU_CONST_PTR(RasterCounters) rasters[3]; // of each material class, or null
+    GPU_PTR(BrickEntry) bricks;       // get the numbers of the bricks' nodes
+    GPU_CONST_PTR(BrickRange) ranges; // [brick_capacity]
+    GPU_CONST_PTR(uint) masks;
+    GPU_PTR(BinCounters) bins;
+    GPU_PTR(uvec2) keys;             // [leaf_capacity]
+    GPU_PTR(Node) nodes;             // [brick_capacity] of bricks, then [leaf_capacity] of leaves
+    GPU_PTR(LayerCounters) counters; // [1] cleared
+    GPU_PTR(LayerCounters) reports;  // copies that the host can read
+    uint window;
     uint brick_capacity;
     uint leaf_capacity;
     uint voxel_capacity;
-    uint big_capacity;
-    uint block_capacity;
     uint report; // element of reports
 };
 #define UPDATE_LAYER_LEAVES_CONSTANTS(CONSTANT)                                                                        \

@@ -1,14 +1,11 @@
 // SPDX-License-Identifier: MIT
 // The attributes of the voxels of the items, a thread an item: fragments are added to the sums of their voxels or, with
-// kMixed, to those of mixed voxels, and what a single fragment gives is written at once.
+// kMixed, to those of mixed voxels, and what a single fragment gives is written at once: it is what sums would give.
 // Needs GPU_ENTRY with AttributesParams.
 #ifndef ZVO_SHADERS_VOXELIZE_ATTRIBUTES_GLSL
 #define ZVO_SHADERS_VOXELIZE_ATTRIBUTES_GLSL
 
 layout(local_size_x = kItemsGroup) in;
-
-const bool kEmits = false;
-const uint kMode = kModeAttributes;
 
 #define BRICKS_BINDING 0
 #define COLOR_BINDING 15
@@ -24,25 +21,39 @@ const uint kMode = kModeAttributes;
 
 #ifdef BOUND
 TEXELS_3(14, voxels);
-
-ItemVoxels loadVoxels(uint i)
-{
-    uvec3 words = texelFetch(texels3_voxels, int(i)).xyz;
-    return ItemVoxels(words.x, words.y, words.z);
-}
+#define ITEM_WORDS(I) texelFetch(texels3_voxels, int(I)).xyz
 #else
-ItemVoxels loadVoxels(uint i)
-{
-    return params.voxels.data[i];
-}
+#define ITEM_WORDS(I) uvec3_ConstPtr(uint64_t(params.voxels)).data[I]
 #endif
+
+Voxels loadVoxels(uint i)
+{
+    uvec3 words = ITEM_WORDS(kVoxelsStride * i);
+    uvec2 last_layers = uvec2(0u);
+    if (!kThin)
+        last_layers = ITEM_WORDS(kVoxelsStride * i + 1u).yz;
+    return Voxels(words.x, words.yz, last_layers);
+}
+
+void addEmission(uvec3 emission, uint voxel)
+{
+    uvec2 word = params.emission_words.data[voxel >> 5];
+    uint bit = 1u << (voxel & 31u);
+    if (any(notEqual(emission, uvec3(0u))) && (word.x & bit) != 0u)
+    {
+        uint rank = word.y + bitCount(word.x & (bit - 1u));
+        atomicAdd(params.emission_sums.data[rank].red, emission.r >> params.sum_shift);
+        atomicAdd(params.emission_sums.data[rank].green, emission.g >> params.sum_shift);
+        atomicAdd(params.emission_sums.data[rank].blue, emission.b >> params.sum_shift);
+    }
+}
 
 void main()
 {
-    uint i = threadIndex();
-    if (i >= params.item_count)
+    uint i = params.first_item + threadIndex();
+    if (i >= params.counters.data[0].covered_items)
         return;
-    ItemVoxels voxels = loadVoxels(i);
+    Voxels voxels = loadVoxels(i);
     if (!hasVoxels(voxels))
         return;
     BrickItem item = loadItem(i);
@@ -61,20 +72,31 @@ void main()
         if (number >> 6 != leaf)
         {
             leaf = number >> 6;
-            uint index = childIndex(brick, leaf);
+            uint index = leafIndex(brick, leaf);
             node = loadLeaf(index);
             if (kMixed)
                 mixed = loadMixedLeaf(index);
         }
         uint cell = number & 63u;
-        uvec3 weights = fixedWeights(cornersAt(setup, corner + ivec3(voxel)), true);
-        VoxelSums sums = sumsOf(fragmentColor(surface, weights).rgb, fragmentNormal(surface, weights));
+        uint place = childIndex(node, cell);
+        uvec3 weights = weightsAt(setup, corner + ivec3(voxel));
+        uvec4 color = fragmentColor(surface, weights);
+        if (kMaterialClass == kClassAlpha && !passesAlpha(surface, color.a, uvec3(corner) + voxel))
+            continue;
+        if (kMode == kModeEmission)
+        {
+            addEmission(fragmentEmission(surface, weights), place);
+            continue;
+        }
+        if (kEmits && any(notEqual(fragmentEmission(surface, weights), uvec3(0u))))
+            atomicOr(params.emission_words.data[place >> 5].x, 1u << (place & 31u));
+        VoxelSums sums = sumsOf(color.rgb, fragmentNormal(surface, weights));
         if (!kMixed)
-            addToSums(childIndex(node, cell), sums);
+            addToSums(place, sums);
         else if (isMixed(mixed, cell))
             addToSums(sumsIndex(mixed, cell), sums);
         else
-            STORE_MEAN(childIndex(node, cell), sums, 0u);
+            STORE_MEAN(place, sums, 0u);
     }
 }
 

@@ -1,24 +1,24 @@
 #version 460
 // SPDX-License-Identifier: MIT
-// Sets triangles up, and makes their items, a thread a triangle. The voxels of small ones are found here, in 32-bit
-// integers; they have an item in each brick with one of them, mostly a single brick, and many have no voxel at all.
-// Large ones are listed for voxelize/bin_large, in blocks of columns of bricks.
+// Sets triangles up, and makes their items, a thread a triangle. The voxels that thin coverage gives small ones are found
+// here, in 32-bit integers; they have an item in each brick with one of them, mostly a single brick, and many have no
+// voxel at all. With conservative coverage they have one in each brick that their box touches. Large triangles are
+// listed for voxelize/bin_large, in blocks of columns of bricks.
 #extension GL_GOOGLE_include_directive : require
 #include "voxelize/bricks.h"
 
 GPU_ENTRY(BinParams, VOXELIZE_BIN_CONSTANTS);
 layout(local_size_x = kChunkTriangles) in;
 
-const uint kCoverage = kCoverageThin;
-const bool kThin = true;
-const uint kMode = kModeAttributes;
-const bool kEmits = false;
+const bool kThin = kCoverage == kCoverageThin;
+const bool kKeepsSetups = kMode == kModeAttributes || kMaterialClass == kClassAlpha || !kThin; // of small triangles
 
 #define BRICKS_BINDING 0
 #define COLOR_BINDING 15
 #define EDGE_INT int
 #define EDGE_IVEC3 ivec3
 #extension GL_KHR_shader_subgroup_arithmetic : require
+#extension GL_KHR_shader_subgroup_ballot : require
 #include "lib/arrivals.glsl"
 #include "lib/bound.glsl"
 #include "lib/dispatch.glsl"
@@ -47,24 +47,27 @@ ivec3 extentOf(SnappedTriangle t)
     return max(t.v0, max(t.v1, t.v2)) - min(t.v0, min(t.v1, t.v2));
 }
 
-// Blocks are those of the projection along the major axis, row by row.
+// Blocks are those of the projection along the major axis, row by row; they grow with the triangle.
 void listLarge(SnappedTriangle snapped, uint axis, uint triangle)
 {
     ivec3 size = (snapped.high >> int(kBrickLog2)) - (snapped.low >> int(kBrickLog2)) + 1;
-    uvec2 blocks = (uvec2(permuted(size, axis).xy) + (kBlockBricks - 1u)) / kBlockBricks;
+    uvec2 bricks = uvec2(permuted(size, axis).xy);
+    uint log2 = kBlockBricksLog2;
+    uvec2 blocks = ((bricks - 1u) >> log2) + 1u;
+    for (; log2 < kBlockLog2Max && blocks.x * blocks.y > kBlocksMax; ++log2)
+        blocks = (blocks + 1u) >> 1;
     uint count = blocks.x * blocks.y;
-    ivec3 extent = extentOf(snapped);
-    if (max(extent.x, max(extent.y, extent.z)) > kTileExtent || count > kBlocksMax)
+    if (count > kBlocksMax)
     {
-        atomicAdd(params.counters.data[0].wide_count, 1u);
+        atomicMax(params.counters.data[0].blocks_exceeded, 1u);
         return;
     }
     uint first = atomicAdd(params.counters.data[0].large_count, count);
-    if (first > kRowBlocksMax)
-        atomicMax(params.counters.data[0].wide_count, 1u); // before large_count wraps around
+    if (first > kBlocksListMax)
+        atomicMax(params.counters.data[0].blocks_exceeded, 1u); // before large_count wraps around
     for (uint block = 0u; block < count; ++block)
         if (first + block < params.large_capacity)
-            params.large.data[first + block] = LargeBlock(triangle, block);
+            params.large.data[first + block] = LargeBlock(triangle, block | (log2 << kBlockLog2Shift));
 }
 
 // Whether the triangle is short, in the grid and beyond, and has few columns.
@@ -79,14 +82,25 @@ bool isSmall(SnappedTriangle t)
            most * middle <= int(kItemColumns);
 }
 
-// Of what the triangle's surface needs, all that fragments do not change.
-void writeSetup(uint place, Surface surface, RasterTriangle t, uint material)
+void writeSurface(uint place, TriangleUvs uvs, uint level, uvec2 colors[3])
+{
+    STORED_SURFACE(4u * place) = uvec4(uvs.u, uvs.v.x);
+    STORED_SURFACE(4u * place + 1u) = uvec4(uvs.v.yz, level, colors[0].x);
+    STORED_SURFACE(4u * place + 2u) = uvec4(colors[0].y, colors[1], colors[2].x);
+    STORED_SURFACE(4u * place + 3u) = uvec4(colors[2].y, 0u, 0u, 0u);
+}
+
+// Of what the triangle's surface needs, all that fragments do not change. is_flat: a segment or a point.
+void writeSetup(uint place, Surface surface, RasterTriangle t, bool is_flat, uint material)
 {
     uint flags = t.axis | (t.mirror.x != 0 ? kSetupMirrorU : 0u) | (t.mirror.y != 0 ? kSetupMirrorV : 0u) |
                  (t.exchanged ? kSetupExchanged : 0u) | (surface.textured ? kSetupTextured : 0u) |
-                 (surface.colored ? kSetupColored : 0u);
+                 (surface.colored ? kSetupColored : 0u) | (is_flat ? kSetupFlat : 0u);
     if (surface.textured)
         flags |= surface.texture.wrap_u << kSetupWrapU | surface.texture.wrap_v << kSetupWrapV;
+    if (surface.emission_textured)
+        flags |= kSetupEmissionTextured | surface.emission_texture.wrap_u << kSetupEmissionWrapU |
+                 surface.emission_texture.wrap_v << kSetupEmissionWrapV;
     ivec3 n0 = surface.normals[0];
     ivec3 n1 = surface.normals[1];
     ivec3 n2 = surface.normals[2];
@@ -95,18 +109,16 @@ void writeSetup(uint place, Surface surface, RasterTriangle t, uint material)
     STORED_SETUP(4u * place + 2u) = uvec4(t.w.z, pack16(n0.x, n0.y), pack16(n0.z, n1.x), pack16(n1.y, n1.z));
     STORED_SETUP(4u * place + 3u) = uvec4(pack16(n2.x, n2.y), pack16(n2.z, 0), material, flags);
     if (surface.textured || surface.colored)
-    {
-        STORED_SURFACE(4u * place) = uvec4(surface.uvs.u, surface.uvs.v.x);
-        STORED_SURFACE(4u * place + 1u) = uvec4(surface.uvs.v.yz, surface.level_number, surface.colors[0].x);
-        STORED_SURFACE(4u * place + 2u) = uvec4(surface.colors[0].y, surface.colors[1], surface.colors[2].x);
-        STORED_SURFACE(4u * place + 3u) = uvec4(surface.colors[2].y, 0u, 0u, 0u);
-    }
+        writeSurface(kSurfacesOfTriangle * place, surface.uvs, surface.level_number, surface.colors);
+    if (surface.emission_textured)
+        writeSurface(kSurfacesOfTriangle * place + 1u, surface.emission_uvs, surface.emission_level_number,
+                     surface.colors);
 }
 
 struct SmallVoxels
 {
-    ItemVoxels voxels; // of all bricks
-    uvec3 upper;       // those in the second brick along u, v, w, a bit a column
+    Voxels voxels; // of all bricks
+    uvec3 upper;   // those in the second brick along u, v, w, a bit a column
 };
 
 // The voxels of a small triangle. selected: else none.
@@ -122,7 +134,9 @@ SmallVoxels coverSmall(RasterTriangle t, bool selected)
     RasterCell cell = row;
     for (uint column = 0u; column < column_count;)
     {
-        addVoxel(isCovered(t, cell), column, cell.w, found.voxels);
+        bool covered = isCovered(t, cell);
+        found.voxels.info |= covered ? 1u << column : 0u;
+        found.voxels.layers |= layerOfColumn(column, covered ? cell.w : 0);
         bvec3 is_upper = notEqual(ivec3(place, cell.w) >> int(kBrickLog2), first_brick);
         found.upper |= uvec3(is_upper) << column;
         ++column;
@@ -139,52 +153,85 @@ SmallVoxels coverSmall(RasterTriangle t, bool selected)
     return found;
 }
 
-// The columns that are in a brick of the eight, or not.
+// The columns with a voxel in a brick of eight: bit 0 of its number is along u, bit 1 along v, bit 2 along w.
 uint columnsIn(SmallVoxels found, uint brick)
 {
     uvec3 others = found.upper ^ uvec3((brick & 1u) - 1u, ((brick >> 1) & 1u) - 1u, (brick >> 2) - 1u);
     return found.voxels.info & others.x & others.y & others.z & kColumnsMask;
 }
 
-void takeTriangle(ChunkTriangle taken)
+// Those with voxels, a bit each.
+uint bricksOf(SmallVoxels found)
 {
-    uvec3 vertices = loadTriangle(taken.draw.first_triangle + taken.triangle);
-    SnappedTriangle snapped = snapTriangle(taken.draw, vertices, true);
-    if (taken.exists)
-        countDropped(snapped.fate);
-    bool kept = taken.exists && snapped.fate == kKept && all(lessThanEqual(snapped.low, snapped.high));
-    bool small = isSmall(snapped);
-    uint axis = majorAxis(snapped.normal, snapped.low, snapped.high);
-    RasterTriangle t = setupTriangle(snapped.v0, snapped.v1, snapped.v2, snapped.normal, axis, snapped.low,
-                                     snapped.high, gridResolution());
-    SmallVoxels found = coverSmall(t, kept && small);
-    uint bricks = 0u; // bit u + 2 v + 4 w
+    uint bricks = 0u;
     [[unroll]] for (uint brick = 0u; brick < 8u; ++brick)
         bricks |= columnsIn(found, brick) != 0u ? 1u << brick : 0u;
-    uint count = bitCount(bricks);
+    return bricks;
+}
+
+// Those that the box of a small triangle touches.
+uint bricksOf(RasterTriangle t)
+{
+    bvec3 two = notEqual(t.low >> int(kBrickLog2), t.high >> int(kBrickLog2));
+    return 255u & (two.x ? ~0u : 0x55u) & (two.y ? ~0u : 0x33u) & (two.z ? ~0u : 0x0fu);
+}
+
+// Makes room for `count` elements of each thread of a subgroup, by one atomic. Call in uniform control flow.
+#define TAKE_PLACES(PLACE, COUNT, COUNTER, CARRY)                                                                          {                                                                                                                      }
+
+uint setupPlace(bool wanted)
+{
+    uvec4 wanting = subgroupBallot(wanted);
+    uint first = 0u;
+    if (subgroupElect() && wanting != uvec4(0u))
+        first = atomicAdd(params.counters.data[0].setup_count, subgroupBallotBitCount(wanting));
+    return subgroupBroadcastFirst(first) + subgroupBallotExclusiveBitCount(wanting);
+}
+
+// The place of the first of `count` items of the thread: one atomic for a subgroup.
+uint itemPlace(uint count)
+{
     uint total = subgroupAdd(count);
-    uint place = subgroupExclusiveAdd(count);
+    uint before = subgroupExclusiveAdd(count);
     uint first = 0u;
     if (subgroupElect() && total != 0u)
         first = addItems(total);
-    place += subgroupBroadcastFirst(first);
+    return subgroupBroadcastFirst(first) + before;
+}
+
+void takeTriangle(ChunkTriangle taken)
+{
+    uvec3 vertices = loadTriangle(taken.draw.first_triangle + taken.triangle);
+    SnappedTriangle snapped = snapTriangle(taken.draw, vertices, kThin);
+    if (taken.exists)
+        countDropped(snapped.fate);
+    bool kept = taken.exists && snapped.fate == kKept && all(lessThanEqual(snapped.low, snapped.high));
+    bool small = kept && isSmall(snapped);
+    uint axis = majorAxis(snapped.normal, snapped.low, snapped.high);
+    RasterTriangle t = setupTriangle(snapped.v0, snapped.v1, snapped.v2, snapped.normal, axis, snapped.low,
+                                     snapped.high, gridResolution());
+    SmallVoxels found = coverSmall(t, kThin && small);
+    uint bricks = kThin ? bricksOf(found) : (small ? bricksOf(t) : 0u);
     bool large = kept && !small;
-    if (bricks != 0u || large)
+    bool wanted = large || (kKeepsSetups && bricks != 0u);
+    uint setup = setupPlace(wanted);
+    uint place = itemPlace(bitCount(bricks));
+    if (wanted && setup < params.setup_capacity)
     {
         float double_area = float(abs(permuted(snapped.normal, axis).z)); // in the projection along the major axis
         Surface surface = loadSurface(taken.draw, vertices, vec3(snapped.normal), double_area);
-        writeSetup(taken.place, surface, t, taken.draw.material);
+        writeSetup(setup, surface, t, snapped.normal == i64vec3(0), taken.draw.material);
     }
     if (large)
-        listLarge(snapped, axis, taken.place);
+        listLarge(snapped, axis, setup);
     for (; bricks != 0u; bricks &= bricks - 1u)
     {
         uint brick = uint(findLSB(bricks));
         ivec3 cell = (t.low >> int(kBrickLog2)) + ivec3(brick & 1u, (brick >> 1) & 1u, brick >> 2);
         cell = unpermuted(ivec3(cell.xy ^ t.mirror, cell.z), axis);
-        uint info = (found.voxels.info & ~kColumnsMask) | columnsIn(found, brick);
-        writeItem(place++, BrickItem(taken.place, brickEntry(brickKey(uvec3(cell), brickLevel()))),
-                  ItemVoxels(info, found.voxels.layers_lo, found.voxels.layers_hi));
+        uint entry = brickEntry(brickKey(uvec3(cell), brickLevel()));
+        uint info = kThin ? (found.voxels.info & ~kColumnsMask) | columnsIn(found, brick) : kWholeBox;
+        writeItem(place++, BrickItem(setup, entry), ItemVoxels(info, found.voxels.layers.x, found.voxels.layers.y));
     }
 }
 
@@ -197,7 +244,8 @@ void sizeLarge(uint group_count)
     if (areLastThreads(before, here, group_count * kChunkTriangles) && subgroupElect())
     {
         uint blocks = min(atomicOr(params.counters.data[0].large_count, 0u), params.large_capacity);
-        params.counters.data[0].small_items = atomicOr(params.counters.data[0].item_count, 0u);
+        if (kThin) // else the voxels of all items are still to be found
+            params.counters.data[0].small_items = atomicOr(params.counters.data[0].item_count, 0u);
         params.counters.data[0].large = foldedArgs(largeGroups(blocks), kGroupsXMax);
         atomicExchange(params.counters.data[0].arrived, 0u);
     }
@@ -206,7 +254,6 @@ void sizeLarge(uint group_count)
 void main()
 {
     ChunkTriangle taken = loadChunkTriangle();
-    taken.place += params.first_setup;
     takeTriangle(taken);
     if (workgroupIndex() < chunkGroups())
         sizeLarge(chunkGroups());

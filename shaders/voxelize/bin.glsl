@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Makes items, in the order of triangles, so that neighbours are mostly of one brick.
 // Needs the constants kWideKeys and kBlockLanes, and params.bricks, brick_mask, items, voxels, item_capacity and
-// counters.
+// counters; and kVoxelsStride: ItemVoxels of an item.
 #ifndef ZVO_SHADERS_VOXELIZE_BIN_GLSL
 #define ZVO_SHADERS_VOXELIZE_BIN_GLSL
 
@@ -47,13 +47,12 @@ uint addItems(uint count)
     return first;
 }
 
-// voxels: of a large triangle's item, info is its tile.
 void writeItem(uint place, BrickItem item, ItemVoxels voxels)
 {
     if (place < params.item_capacity)
     {
         ITEM(place) = item;
-        ITEM_VOXELS(place) = voxels;
+        ITEM_VOXELS(kVoxelsStride * place) = voxels;
     }
 }
 

@@ -9,8 +9,10 @@
 GPU_ENTRY(BinLargeParams, VOXELIZE_BIN_LARGE_CONSTANTS);
 layout(local_size_x = kLargeGroup) in;
 
-const uint kCoverage = kCoverageConservative;
+const uint kCoverage = kCoverageConservative; // of bricks
 const bool kThin = false;
+const bool kEmits = false;
+const uint kVoxelsStride = kItemCoverage == kCoverageThin ? 1u : 2u;
 
 #define BRICKS_BINDING 0
 #define EDGE_INT int64_t
@@ -23,6 +25,8 @@ const bool kThin = false;
 #include "lib/bound.glsl"
 #include "lib/dispatch.glsl"
 #include "voxelize/setup.glsl"
+
+const float kRounding = 1.0 / float(1 << 28); // layers a lattice unit: four times the last bit of a float
 
 // Which of the 4x4 tiles of a brick the triangle may have voxels in, bit u + 4 v. cell: the walk's state at the brick.
 // voxels: of the triangle, inside the grid.
@@ -38,7 +42,9 @@ uint tilesOf(RasterTriangle t, RasterCell cell, ivec2 column, CellBox voxels)
     i64vec3 support = i64vec3(abs(t.edge_u)) + i64vec3(abs(t.edge_v));
     i64vec3 row = cell.uv - support * int64_t(kCell / 2 - half_tile) + product(t.edge_u, ivec3(first)) -
                   product(t.edge_v, ivec3(first));
-    precise vec2 slope = vec2(float(t.rise_u), float(t.rise_v)) * (1.0 / float(t.n_w)); // layers a column
+    bool flat_out = t.n_w == 0; // a segment or a point: the plane test passes
+    float inverse = flat_out ? 0.0 : 1.0 / float(t.n_w);
+    precise vec2 slope = vec2(float(t.rise_u), float(t.rise_v)) * inverse; // layers a column
     ivec2 to_first = corner * kVoxelLattice + half_tile - ivec2(t.u.x, t.v.x);
     precise vec2 rise = slope * vec2(to_first);
     precise float height = float(t.w.x - ((cell.w << int(kBrickLog2)) * kVoxelLattice)) + rise.x;
@@ -46,6 +52,8 @@ uint tilesOf(RasterTriangle t, RasterCell cell, ivec2 column, CellBox voxels)
     precise float reach = 2.0 * slope.x;
     reach = reach + 2.0 * slope.y;
     reach = reach + 2.0; // half a tile, and rounding
+    reach = reach + kRounding * (abs(float(t.w.x)) + abs(rise.x) + abs(rise.y));
+    reach = flat_out ? float(kLatticeLimit) : reach;
     uint tiles = 0u;
     for (int v = 0; v < 4; ++v)
     {
@@ -104,9 +112,11 @@ void main()
     CellBox voxels = voxelBox(setup, window_low, window_high);
     CellBox bricks = CellBox(voxels.low >> int(kBrickLog2), voxels.high >> int(kBrickLog2));
     RasterTriangle t = rasterTriangle(setup, bricks, gridResolution() >> int(kBrickLog2));
-    uint row_blocks = (uint(t.high.x - t.low.x + 1) + kBlockBricks - 1u) / kBlockBricks;
-    ivec2 first = t.low.xy + ivec2(kBlockBricks * uvec2(large.block % row_blocks, large.block / row_blocks));
-    uvec2 size = min(uvec2(t.high.xy - first + 1), uvec2(kBlockBricks));
+    uint block = bitfieldExtract(large.block, 0, int(kBlockLog2Shift));
+    uint log2 = large.block >> kBlockLog2Shift;
+    uint row_blocks = (uint(t.high.x - t.low.x) >> log2) + 1u;
+    ivec2 first = t.low.xy + ivec2(uvec2(block % row_blocks, block / row_blocks) << log2);
+    uvec2 size = min(uvec2(t.high.xy - first + 1), uvec2(1u << log2));
     for (uint i = thread % kBlockLanes; i < size.x * size.y; i += kBlockLanes)
     {
         uint row = divideSmall(i, size.x);

@@ -40,7 +40,9 @@ void main()
     uint first = range.first_voxel + bitfieldExtract(before, 0, kMixedShift);
     if ((mask.x | mask.y) != 0u)
     {
-        uint node = childIndex(params.nodes.data[nodeOf(params.bricks.data[range.entry])], leaf);
+        uint node = 0u; // of a grid of up to 4^3: a leaf without nodes above it
+        if (params.first_leaf != 0u)
+            node = childIndex(params.nodes.data[nodeOf(params.bricks.data[range.entry])], leaf);
         params.nodes.data[node] = Node(mask.x, first, mask.y, first + low_voxels);
         if (kMixed)
             params.mixed.data[node - params.first_leaf] =

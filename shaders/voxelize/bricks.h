@@ -14,14 +14,21 @@ GPU_NAMESPACE_BEGIN
 const uint kBrickLog2 = 4u;       // a brick has 16 cells along each axis
 const uint kBrickLeaves = 64u;    // leaves of a brick
 const uint kLeafMaskWords = 128u; // words of the masks of a brick's leaves
-const uint kItemColumns = 16u;    // columns of an item, one voxel each at most
-const uint kBlockBricks = 8u;     // rows and columns of bricks in a block of a large triangle
-const uint kBlocksMax = 16384u;   // of a triangle: one thread lists them
-const uint kLargeGroup = 64u;     // threads of a workgroup of voxelize/bin_large
-const uint kListGroup = 64u;      // threads of a workgroup of voxelize/list_bricks
-const uint kListItems = 16u;      // table entries that a thread of it reads
-const uint kItemsGroup = 64u;     // threads of a workgroup where one thread takes one item
-const uint kBricksGroup = 64u;    // threads of a workgroup where one thread takes one brick
+const uint kItemColumns = 16u;    // columns of an item
+const uint kWholeBox = 16u;       // for the number of a tile: all of a small triangle's box in the brick
+
+const uint kBlockBricksLog2 = 3u;     // rows and columns of bricks in a block of a large triangle, or more
+const uint kBlockLog2Max = 7u;        // a thread walks over a block
+const uint kBlocksMax = 16384u;       // of a triangle: one thread lists them
+const uint kBlocksListMax = 1u << 28; // that one run may list
+const uint kBlockLog2Shift = 28u;     // of LargeBlock::block
+
+const uint kLargeGroup = 64u;  // threads of a workgroup of voxelize/bin_large
+const uint kListGroup = 64u;   // threads of a workgroup of voxelize/list_bricks
+const uint kListItems = 16u;   // table entries that a thread of it reads
+const uint kItemsGroup = 64u;  // threads of a workgroup where one thread takes one item
+const uint kBricksGroup = 64u; // threads of a workgroup where one thread takes one brick
+
 const int kBrickLatticeLog2 = kVoxelLatticeLog2 + int(kBrickLog2); // lattice units of a brick's edge
 
 /// A triangle that may have voxels, computed once for all that need it. Coordinates are those of voxelize/raster.glsl.
@@ -37,7 +44,8 @@ struct TriangleSetup
 };
 GPU_BUFFER(TriangleSetup, 16);
 
-/// What the fragments of a triangle with a texture, or with colours of its vertices, need beside TriangleSetup.
+/// What the fragments of a triangle with a texture, or with colours of its vertices, need beside TriangleSetup. Where a
+/// scene emits light, a triangle has two: the second one is that of its emission's texture.
 struct SurfaceSetup
 {
     ivec3 uv_u; // texture coordinates of the vertices, 16.16
@@ -58,21 +66,23 @@ struct BrickItem
 };
 GPU_BUFFER(BrickItem, 4);
 
-/// A block of kBlockBricks rows and columns of bricks that a large triangle's box touches.
+/// A block of rows and columns of bricks that a large triangle's box touches.
 struct LargeBlock
 {
     uint triangle; // its setup
-    uint block;    // row by row, in the projection along the triangle's major axis
+    uint block; // row by row, in the projection along the triangle's major axis | log2 of its rows << kBlockLog2Shift
 };
 GPU_BUFFER(LargeBlock, 4);
 
 /// The voxels of an item. columns: those of its box, row by row, that have one. Coordinates are modulo a brick.
 ///
 ///     info | columns 16 | width - 1 4 | first u 4 | first v 4 | axis 2 | u mirrored 1 | v mirrored 1 |   from bit 0 on
+///
+/// With conservative coverage a second one follows, of which layers_lo and layers_hi are the columns' last layers.
 struct ItemVoxels
 {
-    uint info;      // of a large triangle's item, its tile until voxelize/cover has found its voxels
-    uint layers_lo; // 4 bits for each column: the voxel's layer
+    uint info;      // until voxelize/cover has found the voxels: the tile, or kWholeBox
+    uint layers_lo; // 4 bits for each column: the first voxel's layer
     uint layers_hi;
 };
 GPU_BUFFER(ItemVoxels, 4);
@@ -91,14 +101,16 @@ GPU_BUFFER(BrickRange, 16);
 struct BinCounters
 {
     uint brick_count;
-    uint listed_count; // bricks; 0 in a run that is thrown away, as something had no room
+    uint fits;         // 1: everything had room; else the run is thrown away
+    uint listed_count; // bricks; 0 in a run that is thrown away
     uint item_count;
-    uint item_carry;     // how often that wrapped around
-    uint small_items;    // of small triangles, which come first
-    uint covered_items;  // item_count; 0 in a run that is thrown away
-    uint wide_count;     // what is too large for voxelization by bricks
-    uint large_count;    // blocks of large triangles
-    uint overflow_count; // bricks that found no slot in the table
+    uint item_carry;    // how often that wrapped around
+    uint small_items;   // of small triangles, which come first
+    uint covered_items; // item_count; 0 in a run that is thrown away
+    uint setup_count;
+    uint blocks_exceeded; // 1: a triangle has too many blocks, or all of them have
+    uint large_count;     // blocks of large triangles
+    uint overflow_count;  // bricks that found no slot in the table
     uint nonfinite;
     uint out_of_range;
     uint outside;
@@ -112,6 +124,7 @@ struct BinCounters
     DispatchArgs small;   // of voxelize/cover for items of small triangles
     DispatchArgs cover;   // of large ones
     DispatchArgs collect; // of voxelize/collect_bricks
+    DispatchArgs leaves;  // a workgroup for each listed brick, and one at least
 };
 GPU_BUFFER(BinCounters, 4);
 
@@ -119,11 +132,11 @@ struct BinParams // push constants of voxelize/bin: a thread a triangle
 {
     GPU_CONST_PTR(SceneView) scene;
     GPU_CONST_PTR(Chunk) chunks;    // [chunk_count]
-    GPU_PTR(TriangleSetup) setups;  // [triangles of all chunks]
-    GPU_PTR(SurfaceSetup) surfaces; // [triangles of all chunks] of scenes with textures or colours of vertices
+    GPU_PTR(TriangleSetup) setups;  // [setup_capacity]
+    GPU_PTR(SurfaceSetup) surfaces; // [setup_capacity] of scenes with textures or colours of vertices
     GPU_PTR(BrickEntry) bricks;     // [brick_mask + 1]
     GPU_PTR(BrickItem) items;       // [item_capacity]
-    GPU_PTR(ItemVoxels) voxels;     // [item_capacity]
+    GPU_PTR(ItemVoxels) voxels;     // [item_capacity], with conservative coverage twice as many
     GPU_PTR(LargeBlock) large;      // [large_capacity]
     GPU_PTR(BinCounters) counters;  // [1]
     vec3 origin;                    // world position of the grid's minimum corner
@@ -131,7 +144,7 @@ struct BinParams // push constants of voxelize/bin: a thread a triangle
     uint window;                    // depth of the grid, and which cube of it is voxelized (voxelize/window.h)
     uint brick_mask;
     uint chunk_count;
-    uint first_setup; // of these chunks
+    uint setup_capacity;
     uint large_capacity;
     uint item_capacity;
 };
@@ -139,7 +152,10 @@ struct BinParams // push constants of voxelize/bin: a thread a triangle
     CONSTANT(0, bool, wide_keys, kWideKeys, false)                                                                     \
     CONSTANT(1, bool, single, kSingle, false)       /* a chunk is one triangle, and a thread takes it */               \
     CONSTANT(2, uint, block_lanes, kBlockLanes, 1u) /* threads that share a block of a large triangle */               \
-    CONSTANT(3, MaterialClass, material_class, kMaterialClass, kClassPlain)
+    CONSTANT(3, MaterialClass, material_class, kMaterialClass, kClassPlain)                                            \
+    CONSTANT(4, Coverage, coverage, kCoverage, kCoverageConservative)                                                  \
+    CONSTANT(5, RasterMode, mode, kMode, kModeCoverage) /* or kModeAttributes: fragments will be shaded */             \
+    CONSTANT(6, bool, emits, kEmits, false)
 GPU_KERNEL(voxelize, bin, Bin, BinParams, VOXELIZE_BIN_CONSTANTS)
 
 struct BinLargeParams // push constants of voxelize/bin_large: kBlockLanes threads a block
@@ -157,7 +173,8 @@ struct BinLargeParams // push constants of voxelize/bin_large: kBlockLanes threa
 };
 #define VOXELIZE_BIN_LARGE_CONSTANTS(CONSTANT)                                                                         \
     CONSTANT(0, bool, wide_keys, kWideKeys, false)                                                                     \
-    CONSTANT(1, uint, block_lanes, kBlockLanes, 1u)
+    CONSTANT(1, uint, block_lanes, kBlockLanes, 1u)                                                                    \
+    CONSTANT(2, Coverage, coverage, kItemCoverage, kCoverageConservative)
 GPU_KERNEL(voxelize, bin_large, BinLarge, BinLargeParams, VOXELIZE_BIN_LARGE_CONSTANTS)
 
 struct ListBricksParams // push constants of voxelize/list_bricks
@@ -168,6 +185,7 @@ struct ListBricksParams // push constants of voxelize/list_bricks
     uint brick_capacity;
     uint max_groups_x;
     uint range_capacity;
+    uint setup_capacity;
     uint item_capacity;
     uint large_capacity;
 };
@@ -188,8 +206,10 @@ struct CoverParams // push constants of voxelize/cover: a thread an item
 #define VOXELIZE_COVER_CONSTANTS(CONSTANT)                                                                             \
     CONSTANT(0, bool, wide_keys, kWideKeys, false)                                                                     \
     CONSTANT(1, bool, mixed, kMixed, false)                                                                            \
-    CONSTANT(2, bool, small, kSmall, false) /* items of small triangles, else of large ones */                         \
-    CONSTANT(3, MaterialClass, material_class, kMaterialClass, kClassPlain)
+    CONSTANT(2, bool, small, kSmall, false) /* items of small triangles, whose voxels are known; else the others */    \
+    CONSTANT(3, MaterialClass, material_class, kMaterialClass, kClassPlain)                                            \
+    CONSTANT(4, Coverage, coverage, kCoverage, kCoverageConservative)                                                  \
+    CONSTANT(5, bool, emits, kEmits, false)
 GPU_KERNEL(voxelize, cover, Cover, CoverParams, VOXELIZE_COVER_CONSTANTS)
 
 struct CollectBricksParams // push constants of voxelize/collect_bricks: a thread a brick
@@ -258,17 +278,23 @@ struct AttributesParams // push constants of voxelize/attributes: a thread an it
     GPU_CONST_PTR(ItemVoxels) voxels;
     GPU_CONST_PTR(Node) nodes;
     GPU_CONST_PTR(MixedVoxels) mixed;
-    GPU_PTR(VoxelSums) sums;
-    GPU_PTR(Attribute) attributes; // [voxels] of those that are not mixed
+    GPU_PTR(VoxelSums) sums;             // [voxels], or with kMixed [mixed voxels]
+    GPU_PTR(Attribute) attributes;       // [voxels] with kMixed, of those that are not mixed
+    GPU_PTR(uvec2) emission_words;       // [ceil(voxels / 32)] with kEmits
+    GPU_PTR(EmissionSums) emission_sums; // [emissive voxels]
+    GPU_CONST_PTR(BinCounters) counters;
     uint window;
     uint first_leaf;
-    uint item_count;
+    uint first_item; // of this dispatch
     uint sum_shift;
 };
 #define VOXELIZE_ATTRIBUTES_CONSTANTS(CONSTANT)                                                                        \
     CONSTANT(0, bool, wide_keys, kWideKeys, false)                                                                     \
     CONSTANT(1, bool, mixed, kMixed, false)                                                                            \
-    CONSTANT(2, MaterialClass, material_class, kMaterialClass, kClassPlain)
+    CONSTANT(2, MaterialClass, material_class, kMaterialClass, kClassPlain)                                            \
+    CONSTANT(3, Coverage, coverage, kCoverage, kCoverageConservative)                                                  \
+    CONSTANT(4, RasterMode, mode, kMode, kModeAttributes) /* or kModeEmission */                                       \
+    CONSTANT(5, bool, emits, kEmits, false)
 GPU_KERNEL(voxelize, attributes, Attributes, AttributesParams, VOXELIZE_ATTRIBUTES_CONSTANTS)
 GPU_KERNEL(voxelize, attributes_int64, AttributesInt64, AttributesParams, VOXELIZE_ATTRIBUTES_CONSTANTS)
 

@@ -18,9 +18,7 @@ struct ChunkTriangle
 {
     bool exists; // else the thread has that of another one
     Draw draw;
-    uint draw_number;
     uint triangle; // of the draw
-    uint place;    // among the triangles of all chunks
 };
 
 // Call where all threads are active: lavapipe then loads for one thread what is uniform.
@@ -35,8 +33,7 @@ ChunkTriangle loadChunkTriangle()
     uint triangle = chunk.y + (kSingle ? 0u : gl_LocalInvocationIndex);
     Draw draw = loadDraw(chunk.x);
     bool exists = workgroupIndex() < group_count && number < params.chunk_count && triangle < draw.triangle_count;
-    uint place = kSingle ? number : number * kChunkTriangles + gl_LocalInvocationIndex;
-    return ChunkTriangle(exists, draw, chunk.x, min(triangle, draw.triangle_count - 1u), place);
+    return ChunkTriangle(exists, draw, min(triangle, draw.triangle_count - 1u));
 }
 
 #endif

@@ -8,7 +8,6 @@
 GPU_ENTRY(CoverParams, VOXELIZE_COVER_CONSTANTS);
 layout(local_size_x = kItemsGroup) in;
 
-const bool kEmits = false;
 const uint kMode = kModeCoverage;
 
 #define BRICKS_BINDING 0
@@ -31,21 +30,17 @@ STORAGE(14, ItemVoxels, voxels);
 
 const uint kMaskWords = kMixed ? 2u * kLeafMaskWords : kLeafMaskWords; // of a brick
 
-// Takes away what cut-outs leave out. brick: its first voxel.
-void cutOut(BrickItem item, TriangleSetup setup, ivec3 brick, inout ItemVoxels voxels)
+Voxels knownVoxels(uint i)
 {
-    Surface surface = surfaceOf(item.triangle, setup);
-    if (surface.alpha_mode == kAlphaOpaque)
-        return;
-    uint existing = voxels.info;
-    for (ItemVoxels left = voxels; hasVoxels(left);)
-    {
-        uint before = left.info;
-        uvec3 voxel = uvec3(brick) + takeVoxel(left);
-        uint alpha = fragmentColor(surface, fixedWeights(cornersAt(setup, ivec3(voxel)), true)).a;
-        existing &= passesAlpha(surface, alpha, voxel) ? ~0u : ~(before ^ left.info);
-    }
-    voxels.info = existing;
+    ItemVoxels voxels = ITEM_VOXELS(kVoxelsStride * i);
+    return Voxels(voxels.info, uvec2(voxels.layers_lo, voxels.layers_hi), uvec2(0u));
+}
+
+void keepVoxels(uint i, Voxels voxels)
+{
+    ITEM_VOXELS(kVoxelsStride * i) = ItemVoxels(voxels.info, voxels.layers.x, voxels.layers.y);
+    if (!kThin)
+        ITEM_VOXELS(kVoxelsStride * i + 1u) = ItemVoxels(0u, voxels.last_layers.x, voxels.last_layers.y);
 }
 
 // Sets bits of a word of a brick's masks; those that were set already are those of mixed voxels.
@@ -65,31 +60,38 @@ void main()
         return;
     BrickItem item = loadItem(i);
     BrickEntry entry = loadBrick(item.entry);
-    ItemVoxels voxels = ITEM_VOXELS(i);
+    ivec3 brick = brickCorner(entry);
+    Voxels voxels = knownVoxels(i);
+    TriangleSetup setup;
+    Surface surface;
     if (!kSmall || kMaterialClass == kClassAlpha)
+        setup = loadSetup(item.triangle);
+    if (kMaterialClass == kClassAlpha)
+        surface = surfaceOf(item.triangle, setup);
+    if (!kSmall)
     {
-        TriangleSetup setup = loadSetup(item.triangle);
-        ivec3 brick = brickCorner(entry);
-        if (!kSmall)
-            voxels = coverColumns(tileTriangle(voxels.info, setup, brick));
-        if (kMaterialClass == kClassAlpha)
-            cutOut(item, setup, brick, voxels);
-        ITEM_VOXELS(i) = voxels;
+        voxels = coverColumns(tileTriangle(voxels.info, setup, brick));
+        keepVoxels(i, voxels);
     }
     // Voxels of an item mostly share a word with the one before: their bits take one atomic.
     uint first_word = entry.mask_lo * kMaskWords;
     uint word = 0u;
     uint bits = 0u;
-    for (ItemVoxels left = voxels; hasVoxels(left);)
+    for (; hasVoxels(voxels);)
     {
-        uint number = numberOf(takeVoxel(left));
+        uvec3 voxel = takeVoxel(voxels);
+        uint number = numberOf(voxel);
         if (number >> 5 != word && bits != 0u)
         {
             setVoxels(first_word + word, bits);
             bits = 0u;
         }
         word = number >> 5;
-        bits |= 1u << (number & 31u);
+        bool exists = true;
+        if (kMaterialClass == kClassAlpha)
+            exists = passesAlpha(surface, fragmentColor(surface, weightsAt(setup, brick + ivec3(voxel))).a,
+                                 uvec3(brick) + voxel);
+        bits |= exists ? 1u << (number & 31u) : 0u;
     }
     if (bits != 0u)
         setVoxels(first_word + word, bits);

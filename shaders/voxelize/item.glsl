@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: MIT
 // The columns of a triangle that an item stands for, and which of them the triangle covers.
-// Needs GPU_ENTRY with params.setups, surfaces, items and window, and the constant kWideKeys.
+// Needs GPU_ENTRY with params.setups, surfaces, items and window, and the constants kWideKeys and kCoverage.
 #ifndef ZVO_SHADERS_VOXELIZE_ITEM_GLSL
 #define ZVO_SHADERS_VOXELIZE_ITEM_GLSL
 
 #include "voxelize/bricks.h"
 
-const uint kCoverage = kCoverageThin;
-const bool kThin = true;
+const bool kThin = kCoverage == kCoverageThin;
 
 #define EDGE_INT int64_t
 #define EDGE_IVEC3 i64vec3
@@ -34,42 +33,106 @@ BrickItem loadItem(uint i)
 }
 #endif
 
-// A large triangle whose box are the columns of a tile of a brick. brick: its first voxel.
+// A triangle whose box are the columns of a tile of a brick, or with kWholeBox all that it has there. brick: its first
+// voxel.
 RasterTriangle tileTriangle(uint tile, TriangleSetup setup, ivec3 brick)
 {
     ivec3 low = brick;
     ivec3 high = brick + ((1 << kBrickLog2) - 1);
     clipToWindow(low, high);
     CellBox box = voxelBox(setup, low, high);
-    ivec2 corner = (box.low.xy & ~((1 << kBrickLog2) - 1)) + 4 * ivec2(tile & 3u, tile >> 2);
-    box.low.xy = max(box.low.xy, corner);
-    box.high.xy = min(box.high.xy, corner + 3);
+    if (tile != kWholeBox)
+    {
+        ivec2 corner = (box.low.xy & ~((1 << kBrickLog2) - 1)) + 4 * ivec2(tile & 3u, tile >> 2);
+        box.low.xy = max(box.low.xy, corner);
+        box.high.xy = min(box.high.xy, corner + 3);
+    }
     return rasterTriangle(setup, box, gridResolution());
 }
 
-// The voxels in the columns of t's box, which may be empty.
-ItemVoxels coverColumns(RasterTriangle t)
+// Columns of t's box, which may be empty.
+uint columnCount(RasterTriangle t)
 {
     ivec2 size = t.high.xy - t.low.xy + 1;
-    uint width = uint(size.x);
-    uint column_count = size.x > 0 && size.y > 0 ? uint(size.x * size.y) : 0u;
-    ItemVoxels voxels = noVoxels(t);
-    TileCell row = startTile(t, t.low.xy);
-    TileCell cell = row;
-    uint row_end = width;
-    for (uint column = 0u; column < column_count;)
+    return size.x > 0 && size.y > 0 ? uint(size.x * size.y) : 0u;
+}
+
+// The columns of t's box that thin coverage covers. Where the triangle is too large for a walk, each column begins one.
+Voxels coverThin(RasterTriangle t)
+{
+    Voxels voxels = noVoxels(t);
+    uint width = uint(t.high.x - t.low.x + 1);
+    uint end = columnCount(t);
+    uint run = areWalked(t) ? end : 1u;
+    for (uint column = 0u; column < end;)
     {
-        addVoxel(isCovered(t, cell), column, cell.w, voxels);
-        ++column;
-        nextColumn(t, cell);
-        if (column == row_end)
+        uint run_end = column + run;
+        uint y = divideSmall(column, width);
+        TileCell row = startTile(t, t.low.xy + ivec2(column - y * width, y));
+        TileCell cell = row;
+        uint row_end = width;
+        for (; column < run_end;)
         {
-            nextRow(t, row);
-            cell = row;
-            row_end += width;
+            bool covered = isCovered(t, cell);
+            voxels.info |= covered ? 1u << column : 0u;
+            voxels.layers |= layerOfColumn(column, covered ? cell.w : 0);
+            ++column;
+            nextColumn(t, cell);
+            if (column == row_end)
+            {
+                nextRow(t, row);
+                cell = row;
+                row_end += width;
+            }
         }
     }
     return voxels;
+}
+
+// The layers of each column of t's box that conservative coverage covers: they stand one above the other.
+Voxels coverConservative(RasterTriangle t)
+{
+    Voxels voxels = noVoxels(t);
+    uint width = uint(t.high.x - t.low.x + 1);
+    uint end = columnCount(t);
+    uint row_end = width;
+    RasterCell row = startColumn(t, t.low.xy);
+    RasterCell first = row; // the column's lowest layer
+    RasterCell cell = row;
+    for (uint column = 0u; column < end;)
+    {
+        if (isCovered(t, cell))
+        {
+            bool is_first = (voxels.info >> column & 1u) == 0u;
+            voxels.info |= 1u << column;
+            voxels.layers |= layerOfColumn(column, is_first ? cell.w : 0);
+            voxels.last_layers &= ~layerOfColumn(column, 15);
+            voxels.last_layers |= layerOfColumn(column, cell.w);
+        }
+        if (cell.w < min(cell.w_high, t.high.z))
+        {
+            moveUp(t, true, cell);
+        }
+        else
+        {
+            ++column;
+            bool row_ends = column == row_end;
+            if (row_ends)
+                nextRow(t, row);
+            else
+                nextColumn(t, first);
+            if (row_ends)
+                first = row;
+            cell = first;
+            row_end += row_ends ? width : 0u;
+        }
+    }
+    return voxels;
+}
+
+Voxels coverColumns(RasterTriangle t)
+{
+    return kThin ? coverThin(t) : coverConservative(t);
 }
 
 // The barycentric edge functions of a triangle over the column of a voxel: component i belongs to vertex i.

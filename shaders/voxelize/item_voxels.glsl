@@ -18,21 +18,35 @@ const uint kAxisShift = 28u;
 const uint kMirrorUShift = 30u;
 const uint kMirrorVShift = 31u;
 
+// ItemVoxels in registers: info, and the first and last layers of columns. Those of thin coverage have no last ones.
+struct Voxels
+{
+    uint info;
+    uvec2 layers;
+    uvec2 last_layers;
+};
+
+const uint kVoxelsStride = kThin ? 1u : 2u; // ItemVoxels of an item
+
 // Without voxels. t: of which the columns are those of its box.
-ItemVoxels noVoxels(RasterTriangle t)
+Voxels noVoxels(RasterTriangle t)
 {
     uvec2 first = uvec2(t.low.xy) & 15u;
     uint info = (uint(t.high.x - t.low.x) & 15u) << kWidthShift | first.x << kFirstUShift | first.y << kFirstVShift |
                 t.axis << kAxisShift | uint(t.mirror.x & 1) << kMirrorUShift | uint(t.mirror.y & 1) << kMirrorVShift;
-    return ItemVoxels(info, 0u, 0u);
+    return Voxels(info, uvec2(0u), uvec2(0u));
 }
 
-void addVoxel(bool present, uint column, int layer, inout ItemVoxels voxels)
+// A layer among those of columns.
+uvec2 layerOfColumn(uint column, int layer)
 {
-    uint bits = present ? (uint(layer) & 15u) << (kLayerBits * (column & 7u)) : 0u;
-    voxels.info |= present ? 1u << column : 0u;
-    voxels.layers_lo |= column < 8u ? bits : 0u;
-    voxels.layers_hi |= column < 8u ? 0u : bits;
+    uint bits = (uint(layer) & 15u) << (kLayerBits * (column & 7u));
+    return column < 8u ? uvec2(bits, 0u) : uvec2(0u, bits);
+}
+
+uint layerIn(uvec2 layers, uint column)
+{
+    return ((column < 8u ? layers.x : layers.y) >> (kLayerBits * (column & 7u))) & 15u;
 }
 
 // The number of a voxel in its brick: that of its leaf, and six bits of the cell in it. voxel: in the brick.
@@ -41,30 +55,25 @@ uint numberOf(uvec3 voxel)
     return (cellInBlock(voxel >> 2) << 6) | cellInBlock(voxel);
 }
 
-// The voxel in a column of an item: its place in the brick.
-uvec3 voxelInColumn(ItemVoxels voxels, uint column)
-{
-    uint width = bitfieldExtract(voxels.info, int(kWidthShift), 4) + 1u;
-    uint y = divideSmall(column, width);
-    uint u = bitfieldExtract(voxels.info, int(kFirstUShift), 4) + column - y * width & 15u;
-    uint v = bitfieldExtract(voxels.info, int(kFirstVShift), 4) + y & 15u;
-    u ^= (voxels.info >> kMirrorUShift & 1u) != 0u ? 15u : 0u;
-    v ^= (voxels.info >> kMirrorVShift) != 0u ? 15u : 0u;
-    uint w = ((column < 8u ? voxels.layers_lo : voxels.layers_hi) >> (kLayerBits * (column & 7u))) & 15u;
-    uint axis = bitfieldExtract(voxels.info, int(kAxisShift), 2);
-    return uvec3(unpermuted(ivec3(u, v, w), axis));
-}
-
 // Takes the next voxel away from those of an item, which has one. Returns its place in the brick.
-uvec3 takeVoxel(inout ItemVoxels voxels)
+uvec3 takeVoxel(inout Voxels voxels)
 {
     uint column = uint(findLSB(voxels.info & kColumnsMask));
-    uvec3 voxel = voxelInColumn(voxels, column);
-    voxels.info &= ~(1u << column);
-    return voxel;
+    uint width = bitfieldExtract(voxels.info, int(kWidthShift), 4) + 1u;
+    uint y = divideSmall(column, width);
+    uint u = (bitfieldExtract(voxels.info, int(kFirstUShift), 4) + column - y * width) & 15u;
+    uint v = (bitfieldExtract(voxels.info, int(kFirstVShift), 4) + y) & 15u;
+    u ^= (voxels.info >> kMirrorUShift & 1u) != 0u ? 15u : 0u;
+    v ^= (voxels.info >> kMirrorVShift) != 0u ? 15u : 0u;
+    uint w = layerIn(voxels.layers, column);
+    bool column_ends = kThin || w == layerIn(voxels.last_layers, column);
+    voxels.info &= column_ends ? ~(1u << column) : ~0u;
+    if (!kThin)
+        voxels.layers += column_ends ? uvec2(0u) : layerOfColumn(column, 1);
+    return uvec3(unpermuted(ivec3(u, v, w), bitfieldExtract(voxels.info, int(kAxisShift), 2)));
 }
 
-bool hasVoxels(ItemVoxels voxels)
+bool hasVoxels(Voxels voxels)
 {
     return (voxels.info & kColumnsMask) != 0u;
 }

@@ -61,16 +61,19 @@ void main()
         bool fits = bricks == all_bricks && atomicOr(params.counters.data[0].item_count, 0u) <= params.item_capacity &&
                     atomicOr(params.counters.data[0].large_count, 0u) <= params.large_capacity &&
                     atomicOr(params.counters.data[0].item_carry, 0u) == 0u &&
-                    atomicOr(params.counters.data[0].wide_count, 0u) == 0u &&
+                    atomicOr(params.counters.data[0].setup_count, 0u) <= params.setup_capacity &&
+                    atomicOr(params.counters.data[0].blocks_exceeded, 0u) == 0u &&
                     atomicOr(params.counters.data[0].overflow_count, 0u) == 0u;
         uint listed = fits ? bricks : 0u;
         uint items = fits ? atomicOr(params.counters.data[0].item_count, 0u) : 0u;
+        params.counters.data[0].fits = fits ? 1u : 0u;
         params.counters.data[0].listed_count = listed;
         params.counters.data[0].covered_items = items;
         uint small_items = min(params.counters.data[0].small_items, items);
         params.counters.data[0].small = itemGroups(small_items);
         params.counters.data[0].cover = itemGroups(items - small_items);
         params.counters.data[0].collect = foldedArgs((listed + kBricksGroup - 1u) / kBricksGroup, params.max_groups_x);
+        params.counters.data[0].leaves = foldedArgs(max(listed, 1u), params.max_groups_x);
         atomicExchange(params.counters.data[0].arrived, 0u);
     }
 }

@@ -35,6 +35,12 @@ MixedVoxels loadMixedLeaf(uint i)
 }
 #endif
 
+// The node of a leaf of a brick. A grid of up to 4^3 is a leaf without nodes above it.
+uint leafIndex(Node brick, uint leaf)
+{
+    return params.first_leaf == 0u ? 0u : childIndex(brick, leaf);
+}
+
 bool isMixed(MixedVoxels mixed, uint cell)
 {
     return ((cell < 32u ? mixed.mask_lo : mixed.mask_hi) >> (cell & 31u) & 1u) != 0u;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The setups of triangles, which voxelize/bin writes.
-// Needs params.setups, and the macros of voxelize/raster.glsl, with EDGE_WIDE.
+// Needs params.setups, the macros of voxelize/raster.glsl, and the constant kEmits.
 // SETUPS_BINDING (optional): the binding of params.setups in the kernel's bound form (lib/bound.glsl).
 #ifndef ZVO_SHADERS_VOXELIZE_SETUP_GLSL
 #define ZVO_SHADERS_VOXELIZE_SETUP_GLSL
@@ -16,8 +16,14 @@ const uint kSetupMirrorV = 8u;
 const uint kSetupExchanged = 16u;
 const uint kSetupTextured = 32u;
 const uint kSetupColored = 64u;
-const uint kSetupWrapU = 7u; // 2 bits from this one on
-const uint kSetupWrapV = 9u;
+const uint kSetupEmissionTextured = 128u;
+const uint kSetupFlat = 256u; // a segment or a point
+const uint kSetupWrapU = 9u;  // 2 bits from this one on
+const uint kSetupWrapV = 11u;
+const uint kSetupEmissionWrapU = 13u;
+const uint kSetupEmissionWrapV = 15u;
+
+const uint kSurfacesOfTriangle = kEmits ? 2u : 1u; // SurfaceSetups
 
 #if defined(BOUND) && defined(SETUPS_BINDING)
 TEXELS_4(SETUPS_BINDING, setups);

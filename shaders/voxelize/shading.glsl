@@ -35,6 +35,7 @@ struct Surface
     bool textured;
     TriangleUvs emission_uvs;
     TextureInfo emission_texture;
+    uint emission_level_number;
     TextureLevel emission_level;
     bool emission_textured;
     uvec4 factor; // base colour, 16-bit fractions

@@ -58,8 +58,8 @@ Surface loadSurface(Draw draw, uvec3 vertices, vec3 normal, float corner_area)
     {
         surface.emission_uvs = loadUvs(draw.first_emission_uv, vertices);
         surface.emission_texture = loadTexture(material.emission_texture);
-        surface.emission_level =
-            loadLevel(pickLevel(surface.emission_texture, surface.emission_uvs, corner_area));
+        surface.emission_level_number = pickLevel(surface.emission_texture, surface.emission_uvs, corner_area);
+        surface.emission_level = loadLevel(surface.emission_level_number);
     }
     surface.colored = draw.first_color != kAbsent;
     if (surface.colored)

@@ -33,6 +33,13 @@ ivec3 tileEdge(i64vec3 edge)
     return mix(quotient, ivec3(-(1 << 30)), lessThan(beyond, ivec3(-1)));
 }
 
+// Whether a triangle is small enough for a walk over more than one column.
+bool areWalked(RasterTriangle t)
+{
+    ivec3 edges = max(abs(t.edge_u), max(abs(t.edge_v), abs(t.edge_w)));
+    return max(edges.x, max(edges.y, edges.z)) <= kTileExtent;
+}
+
 TileCell startTile(RasterTriangle t, ivec2 column)
 {
     RasterCell first = startColumn(t, column);

@@ -11,10 +11,10 @@ int gridDepth()
     return int(windowGridDepth(params.window));
 }
 
-// Level of the bricks of 16^3 cells among the nodes' levels.
+// Level of the bricks of 16^3 cells among the nodes' levels. Grids of up to 4^3 are a part of one brick.
 uint brickLevel()
 {
-    return uint(gridDepth() - 1) / 2u - 1u;
+    return max(uint(gridDepth() - 1) / 2u, 1u) - 1u;
 }
 
 int gridResolution()

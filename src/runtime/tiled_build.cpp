@@ -104,15 +104,15 @@ private:
 };
 
 // Where to start for a cube of the grid: surfaces that are spread over the grid, and four times as much.
-VoxelizeCapacities likelyCapacities(const GpuScene& scene, const Grid& grid, RowShape shape, std::uint32_t depth)
+VoxelizeCapacities likelyCapacities(const GpuScene& scene, const Grid& grid, Coverage coverage, std::uint32_t depth)
 {
-    const VoxelizeCapacities whole = VoxelizeCapacities::estimate(scene, grid, shape);
+    const VoxelizeCapacities whole = VoxelizeCapacities::estimate(scene, grid, coverage);
     const auto share = [&](std::uint64_t count)
     {
         const std::uint32_t shift = 2 * (grid.depth - depth);
         return std::min(count, std::max<std::uint64_t>(count >> (shift > 2 ? shift - 2 : 0), 1024));
     };
-    return {share(whole.bricks), share(whole.big_triangles), share(whole.row_blocks)};
+    return {share(whole.table), share(whole.bricks), share(whole.setups), share(whole.items), share(whole.large)};
 }
 
 // The largest even depth below that of a cube.
@@ -157,7 +157,7 @@ std::optional<Part> TiledBuilder::buildWhole(std::uint32_t depth, std::uint64_t 
     const VoxelizeCapacities capacities =
         last != m_capacities.end()
             ? last->second
-            : likelyCapacities(m_scene.uploaded(), m_grid, RowShape::on(m_device.device()), depth);
+            : likelyCapacities(m_scene.uploaded(), m_grid, m_options.coverage, depth);
     BuildResult built = buildOctree(m_device, m_scene, {m_grid, depth, cellOfCode(code)},
                                     {m_options.coverage, hasAttributes(), capacities});
     m_capacities[depth] = built.capacities;

@@ -17,11 +17,8 @@ namespace
 
 constexpr TuningValue kNodeLanes[] = {{"1", 1}, {"2", 2}, {"4", 4}, {"8", 8}, {"16", 16}};
 constexpr TuningValue kBeamLanes[] = {{"1", 1}, {"2", 2}, {"4", 4}, {"8", 8}, {"16", 16}};
-constexpr TuningValue kRowColumns[] = {{"16", 16},   {"32", 32},   {"64", 64},    {"128", 128},
-                                       {"256", 256}, {"512", 512}, {"1024", 1024}};
-constexpr TuningValue kBandLanes[] = {{"1", 1}, {"2", 2}, {"4", 4}, {"8", 8}, {"16", 16}, {"32", 32}};
+constexpr TuningValue kBlockLanes[] = {{"1", 1}, {"2", 2}, {"4", 4}, {"8", 8}, {"16", 16}, {"32", 32}};
 constexpr TuningValue kSwitches[] = {{"off", 0}, {"on", 1}};
-constexpr TuningValue kVoxelForms[] = {{"triangles", 0}, {"bricks", kVoxelsByBricks}, {"auto", kVoxelsAuto}};
 constexpr TuningValue kPathForms[] = {{"stages", 0}, {"kernel", 1}};
 constexpr TuningValue kSubgroupSizes[] = {{"auto", 0}, {"4", 4},   {"8", 8},    {"16", 16},
                                           {"32", 32},  {"64", 64}, {"128", 128}};
@@ -33,12 +30,10 @@ constexpr TuningValue kLoads[] = {{"auto", static_cast<std::uint32_t>(vk::LoadFo
 
 // A GPU wants many short threads: the slowest one sets a pass's time. On software devices idle threads and barriers
 // cost as much as others, and threads share what they compute of a triangle. Measured on an H100: docs/performance.md.
-constexpr std::array<TuningRow, 9> kTable = {{
+constexpr std::array<TuningRow, 7> kTable = {{
     {Tunable::NodeLanes, "node-lanes", "threads that share a node", 1, 4, kNodeLanes},
-    {Tunable::RowColumns, "row-columns", "columns of a row block of a big triangle", 256, 16, kRowColumns},
-    {Tunable::BandLanes, "band-lanes", "threads that share a band of a big triangle", 1, 16, kBandLanes},
+    {Tunable::BlockLanes, "block-lanes", "threads that share a block of a large triangle", 1, 16, kBlockLanes},
     {Tunable::MixedSums, "mixed-sums", "sums of voxels with several fragments alone", 1, 0, kSwitches},
-    {Tunable::VoxelForm, "voxels", "voxelization by triangles, or by bricks; auto: by area", 0, 2, kVoxelForms},
     {Tunable::PathForm, "path-form", "paths in stages, or whole in one kernel", 0, 1, kPathForms},
     {Tunable::BeamLanes, "beam-lanes", "threads that share a beam", 1, 4, kBeamLanes},
     {Tunable::SubgroupSize, vk::kSubgroupSizeName, "threads of a subgroup", 0, 0, kSubgroupSizes},

@@ -18,20 +18,13 @@ namespace zvo
 enum class Tunable : std::uint8_t
 {
     NodeLanes,
-    RowColumns,
-    BandLanes,
+    BlockLanes,
     MixedSums,
-    VoxelForm,
     PathForm,
     BeamLanes,
     SubgroupSize,
     Loads
 };
-
-/// Values of Tunable::VoxelForm; 0: by triangles.
-inline constexpr std::uint32_t kVoxelsByBricks = 1;
-inline constexpr std::uint32_t kVoxelsAuto =
-    2; // by bricks, if triangles have the area of two voxels or more in the mean
 
 /// A value that a choice can have, with its name: a number or a word.
 struct TuningValue

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "core/dynamic/dynamic_objects.h"
 
-#include "core/base/with_slack.h"
 #include "zvo/error.h"
 
 #include <fmt/format.h>
@@ -15,27 +14,6 @@ namespace zvo
 
 namespace
 {
-
-// What a layer that failed needs, as far as it tells: counts past a capacity are exact unless the table was full.
-LayerCapacities grown(const LayerCapacities& tried, const gpu::LayerCounters& counters)
-{
-    LayerCapacities result = tried;
-    if (counters.overflow_count != 0)
-    {
-        result.voxelize.bricks = std::min(4 * tried.voxelize.bricks, VoxelizeCapacities::kBricksMax);
-    }
-    result.voxelize.big_triangles = std::max<std::uint64_t>(tried.voxelize.big_triangles, counters.big_count);
-    result.voxelize.row_blocks = std::max<std::uint64_t>(tried.voxelize.row_blocks, counters.block_count);
-    if (counters.leaf_count > tried.leaves)
-    {
-        result.leaves = withSlack(counters.leaf_count);
-    }
-    if (counters.voxel_count > tried.voxels)
-    {
-        result.voxels = withSlack(counters.voxel_count);
-    }
-    return result;
-}
 
 // Throws Error{Usage} for a pose that does not fit.
 void checkPose(const DynamicMesh& mesh, const Pose& pose)
@@ -117,9 +95,9 @@ DynamicObjectId DynamicObjects::add(std::shared_ptr<const DynamicMesh> mesh, Pos
     const auto drop = [&queue = m_deletion_queue](Object* dropped) { queue.keep(std::unique_ptr<Object>(dropped)); };
     const std::shared_ptr<Object> object(new Object(), drop);
     object->buffers = makeDynamicObject(m_device, mesh->plan, mesh->uploaded, mesh->deform);
-    const RowShape shape = RowShape::on(m_device.device());
-    object->capacities = m_options.minimal_capacities ? LayerCapacities{{1, 0, 0}, 1, 1}
-                                                      : LayerCapacities::estimate(mesh->uploaded, m_grid, shape);
+    object->capacities = m_options.minimal_capacities
+                             ? LayerCapacities{{1, 1, 1, 1, 1}, 1, 1}
+                             : LayerCapacities::estimate(mesh->uploaded, m_grid, m_options.coverage);
     object->mesh = std::move(mesh);
     put(*object, std::move(pose));
     m_objects.emplace(m_next_object, object);
@@ -239,9 +217,11 @@ void DynamicObjects::makeLayers()
             const GpuScene& scene = object->mesh->uploaded;
             const LayerContents contents = {m_options.contents.attributes,
                                             m_options.contents.emission && object->mesh->emits};
-            m_device.device().memory().require(LayerBuffers::bytes(object->capacities, scene, contents),
-                                               "the voxels of a dynamic object");
-            object->layer = std::make_unique<LayerBuffers>(m_device.device(), object->capacities, scene, contents);
+            m_device.device().memory().require(
+                LayerBuffers::bytes(object->capacities, scene, m_options.coverage, contents),
+                "the voxels of a dynamic object");
+            object->layer = std::make_unique<LayerBuffers>(m_device.device(), object->capacities, scene,
+                                                           m_options.coverage, contents);
         }
     }
     const std::uint64_t awaited = m_pending.empty() ? 0 : m_report_count - m_pending.front().report;
@@ -268,7 +248,6 @@ std::vector<DynamicObjectId> DynamicObjects::addStages(std::uint32_t sum_shift, 
                                     { zvo::setPose(graph, object->mesh->deform, *pose, object->buffers); }));
         addLayerStages({.scene = {scene, object->buffers},
                         .grid = m_grid,
-                        .coverage = m_options.coverage,
                         .sum_shift = sum_shift,
                         .layer = *object->layer,
                         .reports = m_reports,
@@ -314,15 +293,16 @@ bool DynamicObjects::learn(const PendingLayer& pending)
         return false; // larger already
     }
     const gpu::LayerCounters counters = m_reports.mappedData()[pending.report % m_reports.count()];
-    object.dropped = counters;
+    object.bins = counters.bins;
     if (counters.failed == 0)
     {
         return false;
     }
-    object.is_hopeless =
-        counters.blocks_exceeded != 0 ||
-        (counters.overflow_count != 0 && pending.capacities.voxelize.bricks >= VoxelizeCapacities::kBricksMax);
-    object.capacities = grown(pending.capacities, counters);
+    object.is_hopeless = pending.capacities.voxelize.uncountable(counters.bins) != nullptr;
+    if (!object.is_hopeless)
+    {
+        object.capacities = pending.capacities.grownFor(counters);
+    }
     dropLayer(object);
     return true;
 }
@@ -351,12 +331,11 @@ std::map<std::string, std::uint64_t> DynamicObjects::droppedTriangles()
     std::map<std::string, std::uint64_t> dropped;
     for (const auto& [id, object] : m_objects)
     {
-        dropped["nonfinite"] += object->dropped.nonfinite;
-        dropped["out_of_range"] += object->dropped.out_of_range;
-        dropped["outside"] += object->dropped.outside;
-        dropped["zero_area"] += object->dropped.zero_area;
+        for (const auto& [reason, count] : zvo::droppedTriangles(object->bins))
+        {
+            dropped[reason] += count;
+        }
     }
-    std::erase_if(dropped, [](const auto& entry) { return entry.second == 0; });
     return dropped;
 }
 

@@ -115,7 +115,7 @@ private:
         std::shared_ptr<const Pose> pose; // that the object is to be in
         std::uint64_t version = 0;        // of pose
         std::uint64_t voxelized = 0;      // version of the pose in `layer`; 0: none
-        gpu::LayerCounters dropped{};     // counts of the last voxelization
+        gpu::BinCounters bins{};          // counts of the last voxelization
         bool is_hopeless = false;         // no layer can be large enough
     };
     // What a LayerState keeps.

@@ -120,7 +120,7 @@ void DynamicOctree::prepareBuffers()
     {
         return;
     }
-    if (needed.touched > VoxelizeCapacities::kBricksMax || needed.records > kIndicesMax)
+    if (needed.touched > VoxelizeCapacities::kTableMax || needed.records > kIndicesMax)
     {
         throw Error(ErrorCode::Memory,
                     "dynamic objects touch more nodes than 32-bit numbers count; lower the resolution");

@@ -11,10 +11,23 @@ namespace zvo
 namespace
 {
 
-// Child counts that octree/assign sums up by itself: more are scanned before.
+// Counts that a workgroup sums up by itself: more are scanned before.
 constexpr std::uint64_t kBlocksUnscanned = 512;
 
-// Numbers the root and its children, of which level_count levels are numbered at all.
+void scanBlocks(vk::FrameGraph& graph, vk::BufferOf<gpu::uint>& partials, std::uint64_t skipped,
+                std::uint64_t block_count, OctreeBuildBuffers& work)
+{
+    if (block_count > kBlocksUnscanned)
+    {
+        vk::Pass pass = graph.addPass(gpu::octree::Scan{});
+        const gpu::ScanParams params = {{pass.readWrite(partials).address + skipped},
+                                        pass.write(work.total),
+                                        static_cast<std::uint32_t>(block_count)};
+        pass.dispatch(gpu::kScanGroup, params);
+    }
+}
+
+// Numbers the root and its children, of which level_count levels stand above the leaves.
 void numberTop(vk::FrameGraph& graph, vk::BufferOf<gpu::BrickEntry>& table, OctreeBuildBuffers& work,
                DeviceTree& octree, std::size_t level_count)
 {
@@ -23,8 +36,7 @@ void numberTop(vk::FrameGraph& graph, vk::BufferOf<gpu::BrickEntry>& table, Octr
                                     .items = pass.read(work.items),
                                     .ranges = pass.read(work.ranges),
                                     .nodes = pass.readWrite(octree.nodes),
-                                    .level_count = static_cast<std::uint32_t>(level_count),
-                                    .leaf_level = static_cast<std::uint32_t>(octree.levels.size() - 1)});
+                                    .level_count = static_cast<std::uint32_t>(level_count)});
 }
 
 // Places the nodes of a level, whose first work item is given, and sets their child bases by a prefix sum.
@@ -32,7 +44,6 @@ void numberLevel(vk::FrameGraph& graph, vk::BufferOf<gpu::BrickEntry>& table, Oc
                  DeviceTree& octree, std::size_t level, std::uint32_t first_item, std::uint64_t first_block)
 {
     const auto [first_node, node_count] = octree.levels[level];
-    const bool are_leaves = level + 1 == octree.levels.size();
     const std::uint64_t block_count = divideUp(node_count, gpu::kScanBlock);
     const std::uint64_t skipped = first_block * sizeof(gpu::uint);
     {
@@ -45,126 +56,152 @@ void numberLevel(vk::FrameGraph& graph, vk::BufferOf<gpu::BrickEntry>& table, Oc
                                    .first_node = first_node,
                                    .node_count = node_count});
     }
-    if (block_count > kBlocksUnscanned)
-    {
-        vk::Pass pass = graph.addPass(gpu::octree::Scan{});
-        const gpu::ScanParams params = {{pass.readWrite(work.partials).address + skipped},
-                                        pass.write(work.total),
-                                        static_cast<std::uint32_t>(block_count)};
-        pass.dispatch(gpu::kScanGroup, params);
-    }
+    scanBlocks(graph, work.partials, skipped, block_count, work);
     vk::Pass pass = graph.addPass(gpu::octree::Assign{});
-    pass.dispatch(divideUp(node_count, gpu::kAssignItems),
-                  {.nodes = pass.readWrite(octree.nodes),
-                   .bricks = pass.readWrite(table),
-                   .partials = {pass.read(work.partials).address + skipped},
-                   .is_scanned = block_count > kBlocksUnscanned ? 1U : 0U,
-                   .first_node = first_node,
-                   .node_count = node_count,
-                   .first_child = are_leaves ? 0 : first_node + node_count,
-                   .tell_bricks = are_leaves && !hasWideKeys(octree.grid) ? 1U : 0U});
+    pass.dispatch(divideUp(node_count, gpu::kAssignItems), {.nodes = pass.readWrite(octree.nodes),
+                                                            .partials = {pass.read(work.partials).address + skipped},
+                                                            .is_scanned = block_count > kBlocksUnscanned ? 1U : 0U,
+                                                            .first_node = first_node,
+                                                            .node_count = node_count,
+                                                            .first_child = first_node + node_count});
 }
 
-// Adds the ancestors of the listed nodes to list and table. level_count: from the listed level to the root.
-void listParents(vk::FrameGraph& graph, std::uint32_t level_count, bool wide_keys, vk::BufferOf<gpu::BrickEntry>& table,
-                 vk::BufferOf<gpu::BrickCounters>& counters, OctreeBuildBuffers& work, std::uint64_t brick_capacity)
+// Numbers the voxels of bricks, and writes the nodes of leaves.
+void numberLeaves(vk::FrameGraph& graph, VoxelizeBuffers& voxelize, OctreeBuildBuffers& work,
+                  vk::BufferOf<gpu::MixedVoxels>& mixed, DeviceTree& octree)
 {
-    for (std::uint32_t height = 0; height + 1 < level_count; ++height) // the root has no parent
+    const bool wide = hasWideKeys(octree.grid);
+    // A grid of up to 4^3 is one leaf, of one brick, without a node for that.
+    const std::size_t level_count = octree.levels.size();
+    const auto [first_node, brick_count] = level_count > 1 ? octree.levels[level_count - 2] : DeviceTree::Level{0, 1};
+    const std::uint64_t block_count = divideUp(brick_count, gpu::kScanBlock);
+    graph.fill(work.brick_partials, 0);
     {
-        vk::Pass pass = graph.addPass(gpu::octree::Parents{.wide_keys = wide_keys});
-        pass.dispatchIndirect(work.args, height,
-                              {.bricks = pass.readWrite(table),
-                               .items = pass.readWrite(work.items),
-                               .counters = pass.readWrite(counters),
-                               .ranges = pass.readWrite(work.ranges),
-                               .args = pass.readWrite(work.args),
-                               .brick_mask = static_cast<std::uint32_t>(brick_capacity - 1),
-                               .height = height,
-                               .max_groups_x = graph.device().limits().maxComputeWorkGroupCount[0]},
-                              divideUp(work.items.count(), gpu::kNodesGroup));
+        vk::Pass pass = graph.addPass(gpu::voxelize::PlaceBricks{.wide_keys = wide});
+        pass.dispatch(brick_count, {.bricks = pass.read(voxelize.table),
+                                    .ranges = pass.read(voxelize.ranges),
+                                    .work = pass.read(work.items),
+                                    .work_bricks = pass.read(work.bricks),
+                                    .order = pass.write(work.order),
+                                    .partials = pass.readWrite(work.brick_partials),
+                                    .first_node = first_node,
+                                    .brick_count = brick_count});
     }
+    scanBlocks(graph, work.brick_partials, 0, block_count, work);
+    {
+        vk::Pass pass = graph.addPass(gpu::voxelize::BrickBases{});
+        pass.dispatch(divideUp(brick_count, gpu::kAssignItems), {.ranges = pass.readWrite(voxelize.ranges),
+                                                                 .order = pass.read(work.order),
+                                                                 .partials = pass.read(work.brick_partials),
+                                                                 .is_scanned = block_count > kBlocksUnscanned ? 1U : 0U,
+                                                                 .brick_count = brick_count});
+    }
+    vk::Pass pass = graph.addPass(gpu::voxelize::BrickLeaves{.wide_keys = wide, .mixed = voxelize.form.mixed});
+    pass.dispatch(std::uint64_t{brick_count} * gpu::kBrickLeaves, {.bricks = pass.read(voxelize.table),
+                                                                   .ranges = pass.read(voxelize.ranges),
+                                                                   .order = pass.read(work.order),
+                                                                   .masks = pass.read(voxelize.masks),
+                                                                   .nodes = pass.readWrite(octree.nodes),
+                                                                   .mixed = pass.write(mixed),
+                                                                   .first_leaf = octree.levels.back().first_node,
+                                                                   .brick_count = brick_count});
+}
+
+std::uint64_t partialCount(std::uint64_t table_capacity)
+{
+    return divideUp(table_capacity, gpu::kScanBlock) + gpu::kNodeLevelsMax;
 }
 
 } // namespace
 
-OctreeBuildBuffers::OctreeBuildBuffers(vk::Device& device, std::uint64_t brick_capacity)
-    : items(device, "octree/items", brick_capacity), ranges(device, "octree/ranges", gpu::kNodeLevelsMax),
-      args(device, "octree/args", gpu::kNodeLevelsMax),
-      partials(device, "octree/partials", divideUp(brick_capacity, gpu::kScanBlock) + gpu::kNodeLevelsMax),
-      total(device, "octree/total", 1)
+OctreeBuildBuffers::OctreeBuildBuffers(vk::Device& device, std::uint64_t table_capacity, std::uint64_t brick_capacity)
+    : items(device, "octree/items", table_capacity), counters(device, "octree/counters", 1),
+      ranges(device, "octree/ranges", gpu::kNodeLevelsMax), args(device, "octree/args", gpu::kNodeLevelsMax),
+      partials(device, "octree/partials", partialCount(table_capacity)), total(device, "octree/total", 1),
+      bricks(device, "octree/bricks", brick_capacity), order(device, "octree/brick_order", brick_capacity),
+      brick_partials(device, "octree/brick_partials", divideUp(brick_capacity, gpu::kScanBlock))
 {
+}
+
+std::uint64_t OctreeBuildBuffers::bytes(std::uint64_t table_capacity, std::uint64_t brick_capacity)
+{
+    return table_capacity * sizeof(gpu::WorkItem) +
+           (partialCount(table_capacity) + 2 * brick_capacity) * sizeof(gpu::uint);
 }
 
 void listNodes(vk::FrameGraph& graph, const Grid& grid, VoxelizeBuffers& voxelize, OctreeBuildBuffers& work)
 {
-    graph.fill(work.ranges, 0);
-    graph.fill(work.args, 0);
     const std::uint32_t max_groups_x = graph.device().limits().maxComputeWorkGroupCount[0];
-    {
-        vk::Pass pass = graph.addPass(gpu::octree::Collect{.mixed = voxelize.sum_form.mixed});
-        pass.dispatch(divideUp(voxelize.brickCapacity(), gpu::kCollectItems),
-                      {.bricks = pass.readWrite(voxelize.bricks),
-                       .items = pass.write(work.items),
-                       .counters = pass.readWrite(voxelize.counters),
-                       .ranges = pass.readWrite(work.ranges),
-                       .args = pass.readWrite(work.args),
-                       .brick_capacity = static_cast<std::uint32_t>(voxelize.brickCapacity()),
-                       .max_groups_x = max_groups_x});
-    }
-    listParents(graph, grid.nodeLevels(), hasWideKeys(grid), voxelize.bricks, voxelize.counters, work,
-                voxelize.brickCapacity());
-}
-
-void listBricks(vk::FrameGraph& graph, const Grid& grid, BrickBuffers& bricks, OctreeBuildBuffers& work)
-{
+    graph.fill(work.counters, 0);
     graph.fill(work.ranges, 0);
     graph.fill(work.args, 0);
     {
-        vk::Pass pass = graph.addPass(gpu::voxelize::CollectBricks{.mixed = bricks.has_mixed});
-        pass.dispatchIndirect(bricks.counters, &gpu::BinCounters::collect,
-                              {.bricks = pass.readWrite(bricks.table),
-                               .ranges = pass.readWrite(bricks.ranges),
-                               .masks = pass.read(bricks.masks),
+        vk::Pass pass = graph.addPass(gpu::voxelize::CollectBricks{.mixed = voxelize.form.mixed});
+        pass.dispatchIndirect(voxelize.counters, &gpu::BinCounters::collect,
+                              {.bricks = pass.readWrite(voxelize.table),
+                               .ranges = pass.readWrite(voxelize.ranges),
+                               .masks = pass.read(voxelize.masks),
                                .work = pass.write(work.items),
-                               .work_bricks = pass.write(bricks.work_bricks),
-                               .counters = pass.readWrite(bricks.counters),
-                               .nodes = pass.readWrite(bricks.nodes),
+                               .work_bricks = pass.write(work.bricks),
+                               .counters = pass.readWrite(voxelize.counters),
+                               .nodes = pass.readWrite(work.counters),
                                .levels = pass.readWrite(work.ranges),
                                .args = pass.readWrite(work.args),
-                               .max_groups_x = graph.device().limits().maxComputeWorkGroupCount[0]},
-                              divideUp(bricks.ranges.count(), gpu::kBricksGroup));
+                               .max_groups_x = max_groups_x},
+                              divideUp(voxelize.ranges.count(), gpu::kBricksGroup));
     }
-    listParents(graph, grid.nodeLevels() - 1, hasWideKeys(grid), bricks.table, bricks.nodes, work,
-                bricks.table.count());
+    for (std::uint32_t height = 0; height + 2 < grid.nodeLevels(); ++height) // the root has no parent
+    {
+        vk::Pass pass = graph.addPass(gpu::octree::Parents{.wide_keys = hasWideKeys(grid)});
+        pass.dispatchIndirect(work.args, height,
+                              {.bricks = pass.readWrite(voxelize.table),
+                               .items = pass.readWrite(work.items),
+                               .counters = pass.readWrite(work.counters),
+                               .ranges = pass.readWrite(work.ranges),
+                               .args = pass.readWrite(work.args),
+                               .brick_mask = static_cast<std::uint32_t>(voxelize.table.count() - 1),
+                               .height = height,
+                               .max_groups_x = max_groups_x},
+                              divideUp(work.items.count(), gpu::kNodesGroup));
+    }
 }
 
-void numberNodes(vk::FrameGraph& graph, vk::BufferOf<gpu::BrickEntry>& table, OctreeBuildBuffers& work,
-                 DeviceTree& octree, std::size_t level_count)
+void numberNodes(vk::FrameGraph& graph, VoxelizeBuffers& voxelize, OctreeBuildBuffers& work,
+                 vk::BufferOf<gpu::MixedVoxels>& mixed, DeviceTree& octree)
 {
     // Passes that put numbers where masks were cannot come twice: what can fail comes before the first of them.
+    const bool wide = hasWideKeys(octree.grid);
     vk::KernelCache& kernels = graph.device().kernels();
-    kernels.get(gpu::octree::Number{.wide_keys = hasWideKeys(octree.grid)});
-    kernels.get(gpu::octree::Place{.wide_keys = hasWideKeys(octree.grid)});
+    kernels.get(gpu::octree::Number{.wide_keys = wide});
+    kernels.get(gpu::octree::Place{.wide_keys = wide});
     kernels.get(gpu::octree::Scan{});
     kernels.get(gpu::octree::Assign{});
+    kernels.get(gpu::voxelize::PlaceBricks{.wide_keys = wide});
+    kernels.get(gpu::voxelize::BrickBases{});
+    kernels.get(gpu::voxelize::BrickLeaves{.wide_keys = wide, .mixed = voxelize.form.mixed});
     graph.fill(work.partials, 0);
-    std::uint32_t item_end = 0; // the root is the last item
+    const std::size_t level_count = octree.levels.size() - 1; // without the leaves
+    std::uint32_t item_end = 0;                               // the root is the last item
     for (std::size_t level = 0; level < level_count; ++level)
     {
         item_end += octree.levels[level].node_count;
     }
     std::uint64_t first_block = 0;
-    numberTop(graph, table, work, octree, level_count);
+    if (level_count != 0)
+    {
+        numberTop(graph, voxelize.table, work, octree, level_count);
+    }
     for (std::size_t level = 0; level < level_count; ++level)
     {
         const std::uint32_t node_count = octree.levels[level].node_count;
         item_end -= node_count;
         if (level >= gpu::kRootLevels)
         {
-            numberLevel(graph, table, work, octree, level, item_end, first_block);
+            numberLevel(graph, voxelize.table, work, octree, level, item_end, first_block);
             first_block += divideUp(node_count, gpu::kScanBlock);
         }
     }
+    numberLeaves(graph, voxelize, work, mixed, octree);
 }
 
 static_assert(kLoneNodes == gpu::kNodesGroup);

@@ -3,7 +3,6 @@
 
 #include "core/tree/device_tree.h"
 #include "core/upload/gpu_scene.h"
-#include "core/voxelize/bricks.h"
 #include "core/voxelize/voxelize.h"
 #include "octree/octree.h"
 #include "vk/frame_graph.h"
@@ -14,33 +13,38 @@
 namespace zvo
 {
 
-/// The buffers that octree construction needs beside the brick table.
+/// The buffers that octree construction needs beside those of voxelization.
 struct OctreeBuildBuffers
 {
-    OctreeBuildBuffers(vk::Device& device, std::uint64_t brick_capacity);
+    /// table_capacity, brick_capacity: of VoxelizeCapacities.
+    OctreeBuildBuffers(vk::Device& device, std::uint64_t table_capacity, std::uint64_t brick_capacity);
 
-    vk::BufferOf<gpu::WorkItem> items;    // [brick_capacity] the leaves first, the root last
-    vk::BufferOf<gpu::LevelRange> ranges; // [kNodeLevelsMax] the items of each level, leaves first
-    vk::BufferOf<gpu::DispatchArgs> args; // [kNodeLevelsMax] of each level, leaves first: one thread an item
-    vk::BufferOf<gpu::uint> partials;     // for each level, the children of kScanBlock nodes each
-    vk::BufferOf<gpu::uint> total;        // [1]
+    /// The bytes of such buffers.
+    static std::uint64_t bytes(std::uint64_t table_capacity, std::uint64_t brick_capacity);
+
+    vk::BufferOf<gpu::WorkItem> items;         // [table_capacity] the bricks first, the root last
+    vk::BufferOf<gpu::BrickCounters> counters; // [1]
+    vk::BufferOf<gpu::LevelRange> ranges;      // [kNodeLevelsMax] the items of each level, bricks first
+    vk::BufferOf<gpu::DispatchArgs> args;      // [kNodeLevelsMax] of each level, bricks first: one thread an item
+    vk::BufferOf<gpu::uint> partials;          // for each level, the children of kScanBlock nodes each
+    vk::BufferOf<gpu::uint> total;             // [1]
+    vk::BufferOf<gpu::uint> bricks;            // [brick_capacity] of each brick's item, the number in ranges of bricks
+    vk::BufferOf<gpu::uint> order;             // [brick_capacity] these numbers in the order of nodes
+    vk::BufferOf<gpu::uint> brick_partials;    // the voxels of kScanBlock bricks each
 };
 
-/// Records the passes that list the leaves of the brick table and add all their ancestors to list and table, level by
+/// Records the passes that list the bricks that have voxels and add all their ancestors to list and table, level by
 /// level (Baert, Lagae and Dutre, Out-of-Core Construction of Sparse Voxel Octrees, 2013, without the sort). Afterwards
-/// work.ranges and voxelize.counters hold the numbers of nodes and voxels. Cost: nodes, and one read of every entry of
-/// the table.
+/// work.ranges, work.counters and voxelize.counters hold the numbers of nodes and voxels. Cost: nodes, and the cells of
+/// the bricks' leaves.
 void listNodes(vk::FrameGraph& graph, const Grid& grid, VoxelizeBuffers& voxelize, OctreeBuildBuffers& work);
 
-/// Records the passes that do the same for bricks, which have taken the place of leaves.
-void listBricks(vk::FrameGraph& graph, const Grid& grid, BrickBuffers& bricks, OctreeBuildBuffers& work);
-
 /// Records the passes that number the nodes breadth first, in Morton order within a level, and write octree.nodes from
-/// the root down. octree.levels, node_count and nodes must be set up. The entries of leaves in the brick table receive
-/// the number of their first voxel. The numbers come from prefix sums, so they do not depend on the order of threads.
-/// level_count: levels from the root on that are numbered, all of them or all but the leaves. Cost: nodes.
-void numberNodes(vk::FrameGraph& graph, vk::BufferOf<gpu::BrickEntry>& table, OctreeBuildBuffers& work,
-                 DeviceTree& octree, std::size_t level_count);
+/// the root down, and mixed, which has an element a leaf where voxelize.form tells mixed voxels apart, else none.
+/// octree.levels, node_count and nodes must be set up. The numbers come from prefix sums, so they do not depend on the
+/// order of threads. Cost: nodes, and the cells of the bricks' leaves.
+void numberNodes(vk::FrameGraph& graph, VoxelizeBuffers& voxelize, OctreeBuildBuffers& work,
+                 vk::BufferOf<gpu::MixedVoxels>& mixed, DeviceTree& octree);
 
 /// Records the passes that give each inner node the mean attribute of its children, from the leaves up: a pass for each
 /// level, and one for the root's children and the root. Cost: nodes.

@@ -5,7 +5,7 @@
 #include "core/octree/octree_build.h"
 #include "core/tree/device_tree.h"
 #include "core/upload/gpu_scene.h"
-#include "core/voxelize/bricks.h"
+#include "core/voxelize/fragment_sums.h"
 #include "core/voxelize/voxelize.h"
 #include "vk/timer.h"
 #include "zvo/tree.h"
@@ -29,13 +29,9 @@ struct BuildOptions
     bool attributes = true;
     std::optional<VoxelizeCapacities> capacities = std::nullopt; // of the first run; by default, an estimate
     bool keep_sums = false; // keeps the sums of attributes in DeviceTree::sums: 32 bytes a voxel
-    std::optional<RowShape> row_shape = std::nullopt; // by default, what suits the device
-    /// Likewise, with sums of mixed voxels alone only where triangles are large enough. Where sums are kept, or
-    /// something emits light, all voxels have sums in any case.
+    /// By default, what suits the device, with sums of mixed voxels alone only where triangles are large enough. Where
+    /// sums are kept, or something emits light, all voxels have sums in any case.
     std::optional<SumForm> sum_form = std::nullopt;
-    /// Voxelization by bricks, where it can take the scene (suitsBricks), and no sums are kept; not of tiles whose
-    /// capacities are given. By default, what suits the device.
-    std::optional<bool> by_bricks = std::nullopt;
 };
 
 /// GPU time of those passes that belong to an operation, "voxelize" or "octree": its kernels and the fills of its
@@ -70,33 +66,20 @@ public:
     /// of the grid, and for attributes if the scene was uploaded without them.
     OctreeBuilder(vk::Device& device, const PosedGpuScene& scene, const GridTile& tile, const BuildOptions& options);
 
-    /// New capacities for what a run has shown to be too small.
-    struct Growth
-    {
-        VoxelizeCapacities needed; // known to be needed, perhaps still too little
-        VoxelizeCapacities likely; // likely to suffice, as far as the run tells
-    };
-
 private:
-    // The brick table with its node list.
-    struct Coverings
-    {
-        VoxelizeBuffers voxelize;
-        OctreeBuildBuffers work;
-    };
     // The bricks with the list of the nodes from them up.
     struct Bricks
     {
-        BrickBuffers bricks;
+        VoxelizeBuffers voxelize;
         OctreeBuildBuffers work;
+        vk::BufferOf<gpu::MixedVoxels> mixed; // [leaves] with VoxelForm::mixed, allocated when their number is known
     };
     // Where the values of the last step stand in the readback.
     struct ReadbackOffsets
     {
-        std::uint64_t counters = 0;
         std::uint64_t bins = 0;
+        std::uint64_t nodes = 0;
         std::uint64_t ranges = 0;
-        std::vector<std::uint64_t> rasters; // of the material classes that the scene has
         std::uint64_t max_fragments = 0;
         std::uint64_t emissive_count = 0;
     };
@@ -104,15 +87,9 @@ private:
     VoxelizeJob voxelizeJob();
     void cover(vk::FrameGraph& graph);
     void learnCoverage();
-    void coverByBricks(vk::FrameGraph& graph);
-    void learnBricks();
-    void numberBricks(vk::FrameGraph& graph);
-    void endBrickNumbers();
-    void brickAttributes(vk::FrameGraph& graph);
     void requireRetry() const;
-    void grow(const Growth& growth);
-    std::uint32_t addLevels(std::uint32_t count);
-    void allocateNodes(const gpu::BrickCounters& counters);
+    void grow(const VoxelizeCapacities& grown);
+    void allocateNodes(const gpu::BinCounters& bins, const gpu::BrickCounters& nodes);
     void number(vk::FrameGraph& graph);
     void endNumbers();
     void attributes(vk::FrameGraph& graph);
@@ -127,14 +104,12 @@ private:
     PosedGpuScene m_scene;
     GridTile m_tile;
     BuildOptions m_options;
-    RowShape m_row_shape;
-    SumForm m_sum_form;
-    std::uint32_t m_mixed_count = 0; // mixed voxels, where they alone have sums
-    std::optional<Coverings> m_coverings;
-    std::optional<AttributeBuffers> m_sums;
-    BrickCapacities m_brick_capacities;
-    std::uint32_t m_item_count = 0; // of all bricks
+    bool m_int64 = false; // SumForm::int64
+    VoxelForm m_form;
     std::optional<Bricks> m_bricks;
+    std::optional<AttributeBuffers> m_sums;
+    std::uint32_t m_item_count = 0;  // of all bricks
+    std::uint32_t m_mixed_count = 0; // mixed voxels, where they alone have sums
     std::uint32_t m_emissive_count = 0;
     vk::BufferOf<gpu::Node> m_pool; // takes the place of the nodes in the end
     ReadbackOffsets m_offsets;

@@ -26,4 +26,11 @@ void requireIndexable(std::uint64_t nodes, std::uint64_t attributes)
     }
 }
 
+void throwUncountable(const char* what)
+{
+    throw Error(ErrorCode::Memory, fmt::format("the scene makes more {} than 32-bit numbers count; "
+                                               "lower the resolution, or split the scene",
+                                               what));
+}
+
 } // namespace zvo

@@ -17,4 +17,7 @@ inline constexpr std::uint64_t kNodesMax = kIndicesMax / 4;
 /// nodes, whichever are more; 0 for a tree without attributes.
 void requireIndexable(std::uint64_t nodes, std::uint64_t attributes);
 
+/// Throws Error{Memory}: a scene makes more of something than kernels count.
+[[noreturn]] void throwUncountable(const char* what);
+
 } // namespace zvo

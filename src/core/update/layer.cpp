@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "core/update/layer.h"
 
+#include "core/base/clamped_count.h"
 #include "core/base/divide_up.h"
-
-#include <fmt/format.h>
+#include "core/base/with_slack.h"
+#include "core/voxelize/fragment_sums.h"
+#include "voxelize/window.h"
 
 #include <algorithm>
 #include <bit>
@@ -14,30 +16,57 @@ namespace zvo
 namespace
 {
 
-constexpr std::uint64_t kLayerBricksMin = 256;
-constexpr std::uint64_t kRowsMin = 256; // bands, and row blocks
+constexpr std::uint64_t kCountMin = 64;
+constexpr std::uint64_t kCountMax = 1 << 22;
+constexpr std::uint64_t kVoxelsOfLeaf = 24; // of 64: a plane through a leaf sets 16
+
+VoxelForm formOf(Coverage coverage, LayerContents contents)
+{
+    return {.coverage = coverage, .attributes = contents.attributes, .emission = contents.emission};
+}
+
+// Movement changes counts from frame to frame.
+std::uint64_t grownCount(std::uint64_t tried, std::uint64_t needed)
+{
+    return needed > tried ? withSlack(needed) : tried;
+}
 
 } // namespace
 
-LayerCapacities LayerCapacities::estimate(const GpuScene& scene, const Grid& grid, RowShape shape)
+LayerCapacities LayerCapacities::estimate(const GpuScene& scene, const Grid& grid, Coverage coverage)
 {
-    // The table has no inner nodes, and should be no more than half full.
-    const VoxelizeEstimate likely = VoxelizeEstimate::of(scene, grid, shape);
-    const auto clamped = [](double value, double low, double high)
-    { return static_cast<std::uint64_t>(std::clamp(value, low, high)); };
+    const VoxelizeEstimate likely = VoxelizeEstimate::of(scene, grid, coverage);
+    const auto count = [](double value) { return clampedCount(value * 1.25, kCountMin, kCountMax); };
     LayerCapacities result;
-    result.leaves = clamped(likely.leaves * 1.25, 64, 1 << 22);
-    result.voxels = result.leaves * 24; // of 64 in a leaf: a plane through it sets 16
-    result.voxelize.bricks = std::bit_ceil(std::max(2 * result.leaves, kLayerBricksMin));
-    result.voxelize.big_triangles = clamped(likely.big_triangles * 1.5, kRowsMin, 1 << 20);
-    result.voxelize.row_blocks = clamped(likely.row_blocks * 1.5, kRowsMin, 1 << 23);
+    result.leaves = count(likely.leaves);
+    result.voxels = result.leaves * kVoxelsOfLeaf;
+    result.voxelize.bricks = count(likely.bricks * 1.5);
+    result.voxelize.table = std::bit_ceil(2 * result.voxelize.bricks);
+    result.voxelize.setups = std::min(count(likely.setups), scene.triangle_count);
+    result.voxelize.items = count(likely.items);
+    result.voxelize.large = count(likely.large);
     return result;
 }
 
+LayerCapacities LayerCapacities::grownFor(const gpu::LayerCounters& layer) const
+{
+    LayerCapacities grown = *this;
+    const VoxelizeCapacities needed = voxelize.grownFor(layer.bins);
+    grown.voxelize.bricks = grownCount(voxelize.bricks, needed.bricks);
+    grown.voxelize.table = std::max(needed.table, std::bit_ceil(2 * grown.voxelize.bricks));
+    grown.voxelize.setups = grownCount(voxelize.setups, needed.setups);
+    grown.voxelize.items = grownCount(voxelize.items, needed.items);
+    grown.voxelize.large = grownCount(voxelize.large, needed.large);
+    grown.leaves = grownCount(leaves, layer.leaf_count);
+    grown.voxels = grownCount(voxels, layer.voxel_count);
+    return grown;
+}
+
 LayerBuffers::LayerBuffers(vk::Device& device, const LayerCapacities& capacities, const GpuScene& scene,
-                           LayerContents contents)
-    : voxelize(device, capacities.voxelize, scene), counters(device, "update/layer_counters", 1),
-      keys(device, "update/layer_keys", capacities.leaves), leaves(device, "update/layer_leaves", capacities.leaves)
+                           Coverage coverage, LayerContents contents)
+    : voxelize(device, capacities.voxelize, scene, formOf(coverage, contents)),
+      counters(device, "update/layer_counters", 1), keys(device, "update/layer_keys", capacities.leaves),
+      nodes(device, "update/layer_nodes", capacities.voxelize.bricks + capacities.leaves)
 {
     if (contents.attributes)
     {
@@ -51,16 +80,12 @@ LayerBuffers::LayerBuffers(vk::Device& device, const LayerCapacities& capacities
     }
 }
 
-std::uint64_t LayerBuffers::bytes(const LayerCapacities& capacities, const GpuScene& scene, LayerContents contents)
+std::uint64_t LayerBuffers::bytes(const LayerCapacities& capacities, const GpuScene& scene, Coverage coverage,
+                                  LayerContents contents)
 {
-    std::uint64_t bytes = capacities.voxelize.bricks * sizeof(gpu::BrickEntry) +
-                          capacities.leaves * (sizeof(gpu::uvec2) + sizeof(gpu::Node));
-    for (const TriangleChunks& chunks : scene.chunks)
-    {
-        bytes += chunks.workgroups() == 0 ? 0
-                                          : capacities.voxelize.big_triangles * sizeof(gpu::BigTriangle) +
-                                                capacities.voxelize.row_blocks * sizeof(gpu::RowBlock);
-    }
+    std::uint64_t bytes = capacities.voxelize.bytes(scene, formOf(coverage, contents)) +
+                          capacities.leaves * (sizeof(gpu::uvec2) + sizeof(gpu::Node)) +
+                          capacities.voxelize.bricks * sizeof(gpu::Node);
     bytes += contents.attributes ? capacities.voxels * sizeof(gpu::VoxelSums) : 0;
     bytes += contents.emission ? capacities.voxels * sizeof(gpu::EmissionSums) +
                                      divideUp(capacities.voxels, gpu::kVoxelsPerEmissionWord) * sizeof(gpu::uvec2)
@@ -92,58 +117,62 @@ void listLeaves(vk::FrameGraph& graph, const LayerJob& job)
     graph.fill(layer.counters, 0);
     vk::Pass pass = graph.addPass(gpu::update::LayerLeaves{.wide_keys = hasWideKeys(job.grid)});
     gpu::LayerLeavesParams params{};
-    params.bricks = pass.readWrite(voxelize.bricks);
+    params.bricks = pass.readWrite(voxelize.table);
+    params.ranges = pass.read(voxelize.ranges);
+    params.masks = pass.read(voxelize.masks);
+    params.bins = pass.readWrite(voxelize.counters);
     params.keys = pass.write(layer.keys);
-    params.leaves = pass.write(layer.leaves);
+    params.nodes = pass.write(layer.nodes);
     params.counters = pass.readWrite(layer.counters);
     params.reports = pass.readWrite(job.reports);
-    params.brick_capacity = static_cast<std::uint32_t>(voxelize.brickCapacity());
-    params.leaf_capacity = static_cast<std::uint32_t>(layer.leaves.count());
+    params.window = gpu::packWindow(job.grid.depth, job.grid.depth, gpu::uvec3(0));
+    params.brick_capacity = static_cast<std::uint32_t>(layer.firstLeaf());
+    params.leaf_capacity = static_cast<std::uint32_t>(layer.leafCapacity());
     // Where no sums are kept, nothing limits their number.
     params.voxel_capacity = layer.sums.count() != 0 ? static_cast<std::uint32_t>(layer.sums.count()) : UINT32_MAX;
     params.report = job.report;
-    for (std::uint32_t i = 0; i < gpu::kClassCount; ++i)
-    {
-        const VoxelizeBuffers::RowWork& rows = voxelize.rows[i];
-        params.rasters[i] = pass.read(rows.counters);
-        params.big_capacity = std::max(params.big_capacity, static_cast<std::uint32_t>(rows.big_triangles.count()));
-        params.block_capacity = std::max(params.block_capacity, static_cast<std::uint32_t>(rows.row_blocks.count()));
-    }
-    pass.dispatch(divideUp(voxelize.brickCapacity(), gpu::kCollectItems), params);
+    pass.dispatchIndirect(voxelize.counters, &gpu::BinCounters::leaves, params,
+                          std::max<std::uint64_t>(voxelize.ranges.count(), 1));
 }
 
-// Adds a walk over the triangles: for each material class, the chunks of small ones in pieces, then the big ones.
-void addWalk(const LayerJob& job, const char* name, RasterMode mode, UpdateStages& stages)
+VoxelizeJob voxelizeJob(const LayerJob& job)
+{
+    return {job.scene, job.grid, job.layer.voxelize};
+}
+
+// Adds the stages that put the triangles into bricks, for each material class in pieces.
+void addBins(const LayerJob& job, UpdateStages& stages)
 {
     for (const MaterialClass material_class : kMaterialClasses)
     {
         const std::uint64_t group_count = job.scene.uploaded().chunksOf(material_class).workgroups();
-        if (group_count == 0)
+        if (group_count != 0)
         {
-            continue;
+            stages.push_back({"bin triangles", group_count, true,
+                              [job, material_class](vk::FrameGraph& graph, std::uint64_t first, std::uint64_t count)
+                              { binTriangles(graph, voxelizeJob(job), material_class, first, count); }});
         }
-        const auto withWalk = [job, mode](const auto& record)
-        {
-            LayerBuffers& layer = job.layer;
-            const AttributeSums sums = {layer.leaves, layer.sums, layer.emission_words, layer.emission_sums,
-                                        job.sum_shift};
-            record(RasterWalk{{job.scene, job.grid, job.coverage, layer.voxelize}, mode, &sums});
-        };
-        stages.push_back(
-            {name, group_count, true, [=](vk::FrameGraph& graph, std::uint64_t first, std::uint64_t count) {
-                 withWalk([&](const RasterWalk& walk) { walkTriangles(graph, walk, material_class, first, count); });
-             }});
-        stages.push_back(wholeStage(fmt::format("{}, large triangles", name), group_count,
-                                    [=](vk::FrameGraph& graph)
-                                    {
-                                        withWalk(
-                                            [&](const RasterWalk& walk)
-                                            {
-                                                listRows(graph, walk, material_class);
-                                                walkRows(graph, walk, material_class);
-                                            });
-                                    }));
     }
+}
+
+// Adds the stage that adds up what fragments have, in pieces of workgroups, of which the last ones may have no items.
+void addSums(const LayerJob& job, const char* name, RasterMode mode, UpdateStages& stages)
+{
+    const std::uint64_t group_count = divideUp(job.layer.voxelize.items.count(), gpu::kItemsGroup);
+    stages.push_back({name, group_count, true,
+                      [job, mode](vk::FrameGraph& graph, std::uint64_t first, std::uint64_t count)
+                      {
+                          LayerBuffers& layer = job.layer;
+                          const FragmentTarget sums = {layer.nodes,
+                                                       static_cast<std::uint32_t>(layer.firstLeaf()),
+                                                       layer.sums,
+                                                       layer.emission_words,
+                                                       layer.emission_sums,
+                                                       job.sum_shift,
+                                                       SumForm::on(graph.device()).int64};
+                          addFragments(graph, voxelizeJob(job), mode, sums, first * gpu::kItemsGroup,
+                                       count * gpu::kItemsGroup);
+                      }});
 }
 
 } // namespace
@@ -152,19 +181,21 @@ void addLayerStages(const LayerJob& job, UpdateStages& stages)
 {
     const auto add = [&](const char* name, std::uint64_t units, const auto& record)
     { stages.push_back(wholeStage(name, units, record)); };
-    const std::uint64_t capacity = job.layer.voxelize.brickCapacity();
-    add("clear a layer", capacity, [job](vk::FrameGraph& graph) { clearCoverage(graph, job.layer.voxelize); });
-    addWalk(job, "cover voxels", RasterMode::Coverage, stages);
-    add("list leaves", capacity, [job](vk::FrameGraph& graph) { listLeaves(graph, job); });
+    const VoxelizeBuffers& voxelize = job.layer.voxelize;
+    add("clear a layer", voxelize.table.count(),
+        [job](vk::FrameGraph& graph) { clearVoxels(graph, job.layer.voxelize); });
+    addBins(job, stages);
+    add("cover voxels", voxelize.items.count(), [job](vk::FrameGraph& graph) { coverBricks(graph, voxelizeJob(job)); });
+    add("list leaves", voxelize.ranges.count(), [job](vk::FrameGraph& graph) { listLeaves(graph, job); });
     if (job.layer.sums.count() == 0)
     {
         return;
     }
     add("clear sums", job.layer.sums.count(), [job](vk::FrameGraph& graph) { clearSums(graph, job.layer); });
-    addWalk(job, "add colours and normals", RasterMode::Attributes, stages);
+    addSums(job, "add colours and normals", RasterMode::Attributes, stages);
     if (job.layer.emission_words.count() != 0)
     {
-        addWalk(job, "add emission", RasterMode::Emission, stages);
+        addSums(job, "add emission", RasterMode::Emission, stages);
     }
 }
 

@@ -23,7 +23,11 @@ struct LayerCapacities
     std::uint64_t voxels = 0;
 
     /// A guess from the mesh's surface area and the grid; it suffices in most cases.
-    static LayerCapacities estimate(const GpuScene& scene, const Grid& grid, RowShape shape);
+    static LayerCapacities estimate(const GpuScene& scene, const Grid& grid, Coverage coverage);
+
+    /// At least those that a layer needs, as its counters tell: counts past a capacity are exact unless the table was
+    /// full.
+    [[nodiscard]] LayerCapacities grownFor(const gpu::LayerCounters& layer) const;
 
     bool operator==(const LayerCapacities&) const = default;
 };
@@ -38,15 +42,23 @@ struct LayerContents
 /// The voxels of one dynamic object; shaders/update/update.h describes layers.
 struct LayerBuffers
 {
-    LayerBuffers(vk::Device& device, const LayerCapacities& capacities, const GpuScene& scene, LayerContents contents);
+    LayerBuffers(vk::Device& device, const LayerCapacities& capacities, const GpuScene& scene, Coverage coverage,
+                 LayerContents contents);
 
     /// Bytes of device memory that such buffers take.
-    static std::uint64_t bytes(const LayerCapacities& capacities, const GpuScene& scene, LayerContents contents);
+    static std::uint64_t bytes(const LayerCapacities& capacities, const GpuScene& scene, Coverage coverage,
+                               LayerContents contents);
+
+    /// Where the leaves stand in nodes.
+    [[nodiscard]] std::uint64_t firstLeaf() const { return voxelize.ranges.count(); }
+
+    /// [capacities.leaves]
+    [[nodiscard]] std::uint64_t leafCapacity() const { return keys.count(); }
 
     VoxelizeBuffers voxelize;
     vk::BufferOf<gpu::LayerCounters> counters;     // [1]
     vk::BufferOf<gpu::uvec2> keys;                 // [capacities.leaves]
-    vk::BufferOf<gpu::Node> leaves;                // [capacities.leaves]
+    vk::BufferOf<gpu::Node> nodes;                 // [capacities.voxelize.bricks] of bricks, then [capacities.leaves]
     vk::BufferOf<gpu::VoxelSums> sums;             // [capacities.voxels], or empty without attributes
     vk::BufferOf<gpu::uvec2> emission_words;       // [ceil(capacities.voxels / 32)], or empty without emission
     vk::BufferOf<gpu::EmissionSums> emission_sums; // [capacities.voxels], or empty without emission
@@ -57,7 +69,6 @@ struct LayerJob
 {
     PosedGpuScene scene;
     const Grid& grid;
-    Coverage coverage;
     std::uint32_t sum_shift = 0;
     LayerBuffers& layer;
     vk::BufferOf<gpu::LayerCounters>& reports; // host-visible

@@ -46,7 +46,7 @@ gpu::ConstPtr<gpu::Layer> readLayers(vk::AnyPass& pass, const UpdateJob& job, co
     {
         pass.read(layer->counters);
         pass.read(layer->keys);
-        pass.read(layer->leaves);
+        pass.read(layer->nodes);
         pass.read(layer->sums);
         pass.read(layer->emission_words);
         pass.read(layer->emission_sums);
@@ -71,10 +71,10 @@ void listTouched(vk::FrameGraph& graph, const UpdateJob& job, UpdateBuffers& buf
     std::uint32_t record_count = 0;
     for (const LayerBuffers* layer : job.layers)
     {
-        const auto capacity = static_cast<std::uint32_t>(layer->leaves.count());
+        const auto capacity = static_cast<std::uint32_t>(layer->leafCapacity());
         layers.push_back({{layer->counters.address()},
                           {layer->keys.address()},
-                          {layer->leaves.address()},
+                          {layer->nodes.address() + layer->firstLeaf() * sizeof(gpu::Node)},
                           {layer->sums.address()},
                           {layer->emission_words.address()},
                           {layer->emission_sums.address()},

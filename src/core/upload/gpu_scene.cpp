@@ -302,6 +302,14 @@ GpuScene uploadColorTables(vk::Uploader& device)
     return tables;
 }
 
+MaterialClass GpuScene::highestClass() const
+{
+    const auto exists = [this](MaterialClass material_class) { return chunksOf(material_class).workgroups() != 0; };
+    return exists(MaterialClass::Alpha)      ? MaterialClass::Alpha
+           : exists(MaterialClass::Textured) ? MaterialClass::Textured
+                                             : MaterialClass::Plain;
+}
+
 gpu::SceneView sceneView(const GpuScene& scene)
 {
     gpu::SceneView view{};

@@ -76,6 +76,9 @@ struct GpuScene
     {
         return chunks[static_cast<std::size_t>(material_class)];
     }
+
+    /// The highest class of its draws. Kernels of that class serve the others, too.
+    [[nodiscard]] MaterialClass highestClass() const;
 };
 
 /// The largest emission of any material of scene; 0 if nothing emits light.

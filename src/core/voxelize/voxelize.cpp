@@ -3,10 +3,8 @@
 
 #include "core/base/clamped_count.h"
 #include "core/base/divide_up.h"
-#include "core/base/lanes.h"
 #include "core/base/tuning.h"
-#include "core/tree/device_tree.h"
-#include "octree/octree.h"
+#include "core/tree/tree_limits.h"
 #include "voxelize/window.h"
 
 #include <algorithm>
@@ -21,287 +19,264 @@ static_assert(static_cast<gpu::uint>(Coverage::Conservative) == gpu::kCoverageCo
 static_assert(static_cast<gpu::uint>(Coverage::Thin) == gpu::kCoverageThin);
 static_assert(Grid::kDepthMax < 1U << gpu::kWindowDepthBits);
 static_assert(GridTile::kTilesMax == 1U << gpu::kWindowIndexBits);
-static_assert(sizeof(gpu::VoxelSums) == gpu::kVoxelSumsBytes);
 static_assert(sizeof(gpu::BrickEntry) == gpu::kBrickBytes && sizeof(gpu::MixedVoxels) == gpu::kBrickBytes);
-// What shaders/voxelize/loads.glsl and rows.glsl put together from words.
+// What shaders/voxelize/loads.glsl puts together from words.
 static_assert(sizeof(gpu::Draw) == gpu::kDrawWords * sizeof(gpu::uint));
 static_assert(sizeof(gpu::Material) == 8 * sizeof(gpu::uint) && sizeof(gpu::TextureInfo) == 4 * sizeof(gpu::uint));
 static_assert(sizeof(gpu::TextureLevel) == 3 * sizeof(gpu::uint));
-static_assert(sizeof(gpu::BigTriangle) == 12 * sizeof(gpu::uint) && sizeof(gpu::RowBlock) == 2 * sizeof(gpu::uint));
+// And setup.glsl, item_surface.glsl, item.glsl and attributes.glsl.
+static_assert(sizeof(gpu::TriangleSetup) == 16 * sizeof(gpu::uint));
+static_assert(sizeof(gpu::SurfaceSetup) == 16 * sizeof(gpu::uint));
+static_assert(sizeof(gpu::BrickItem) == 2 * sizeof(gpu::uint) && sizeof(gpu::ItemVoxels) == 3 * sizeof(gpu::uint));
 
 namespace
 {
 
-constexpr std::string_view kInt64Atomics = "shaderBufferInt64Atomics";
-constexpr std::uint64_t kBricksMin = 4096;
-constexpr std::uint64_t kBricksGuessMax = 1 << 24; // the area may lie outside of the grid, for the most part
-constexpr std::uint64_t kBigTrianglesMin = 1 << 12;
-constexpr std::uint64_t kBigTrianglesGuessMax = 1 << 20;
-constexpr std::uint64_t kRowBlocksMin = 1 << 16;
-constexpr std::uint64_t kRowBlocksGuessMax = 1 << 23;
+constexpr std::uint64_t kCountMin = 1024;
+constexpr std::uint64_t kItemsMin = 1 << 12;
+constexpr std::uint64_t kBricksGuessMax = 1 << 20; // the area may lie outside of the grid, for the most part
+constexpr std::uint64_t kItemsGuessMax = 1 << 25;
+constexpr std::uint64_t kItemsMax = 1ULL << 30;  // kernels number words of setups and of voxels
+constexpr std::uint64_t kBricksMax = 1ULL << 23; // ... and of masks
 
-// The kernels of all modes share their parameters: those that only read a buffer get a writable address, too.
-template <typename T> gpu::Ptr<T> access(vk::AnyPass& pass, vk::BufferOf<T>& buffer, bool writes)
+// Whether fragments need what SurfaceSetup has.
+bool hasSurfaces(const GpuScene& scene)
 {
-    return writes ? pass.readWrite(buffer) : gpu::Ptr<T>{pass.read(buffer).address};
+    return scene.highestClass() != MaterialClass::Plain || scene.colors.count() != 0;
 }
 
-// The same for what threads add up by atomics, whatever class of triangles they walk.
-template <typename T> gpu::Ptr<T> accumulation(vk::AnyPass& pass, vk::BufferOf<T>& buffer, bool writes)
+std::uint64_t surfacesOf(const VoxelForm& form, const GpuScene& scene, std::uint64_t setups)
 {
-    return writes ? pass.accumulate(buffer) : gpu::Ptr<T>{pass.read(buffer).address};
+    return hasSurfaces(scene) ? setups * (form.emission ? 2 : 1) : 0;
 }
 
-gpu::RasterParams rasterParams(vk::AnyPass& pass, const RasterWalk& walk, MaterialClass material_class)
+std::uint64_t voxelsOf(const VoxelForm& form, std::uint64_t items)
 {
-    assert(walk.job.scene.uploaded().texture_grid.value_or(walk.job.tile.grid) == walk.job.tile.grid);
-    const bool covers = walk.mode == RasterMode::Coverage; // lists and table are made then, and only read afterwards
-    VoxelizeBuffers::RowWork& rows = walk.job.buffers.rowsOf(material_class);
-    gpu::RasterParams params{};
-    params.scene = walk.job.scene.read(pass);
-    readColorTables(pass, walk.job.scene.uploaded());
-    params.bricks = accumulation(pass, walk.job.buffers.bricks, covers);
-    params.big_triangles = access(pass, rows.big_triangles, covers);
-    params.row_blocks = access(pass, rows.row_blocks, covers);
-    params.counters = access(pass, rows.counters, covers);
-    params.origin = walk.job.tile.grid.origin;
-    params.lattice_scale = latticeScale(walk.job.tile.grid);
-    params.window = gpu::packWindow(walk.job.tile.grid.depth, walk.job.tile.depth, walk.job.tile.index);
-    params.brick_mask = static_cast<std::uint32_t>(walk.job.buffers.brickCapacity() - 1);
-    params.big_capacity = static_cast<std::uint32_t>(rows.big_triangles.count());
-    params.block_capacity = static_cast<std::uint32_t>(rows.row_blocks.count());
-    if (!covers)
-    {
-        const bool emits = walk.mode == RasterMode::Emission;
-        params.nodes = pass.read(walk.sums->leaves);
-        params.sums = accumulation(pass, walk.sums->sums, !emits);
-        params.emission_words = accumulation(pass, walk.sums->emission_words, !emits);
-        params.emission_sums = accumulation(pass, walk.sums->emission_sums, emits);
-        params.sum_shift = walk.sums->sum_shift;
-        if (walk.job.buffers.sum_form.mixed && !emits)
-        {
-            params.attributes = pass.accumulate(*walk.sums->attributes); // each element once, in any order
-        }
-    }
-    return params;
+    return items * (form.coverage == Coverage::Conservative ? 2 : 1);
 }
 
-// The variant of a raster kernel for a walk over a material class.
-template <typename Kernel> Kernel rasterKernel(const RasterWalk& walk, MaterialClass material_class)
+std::uint64_t maskWordsOf(const VoxelForm& form, std::uint64_t bricks)
 {
-    const bool emits = walk.mode != RasterMode::Coverage && walk.sums->emission_words.count() != 0;
-    const RowShape shape = walk.job.buffers.shape;
-    Kernel kernel{.coverage = walk.job.coverage,
-                  .mode = walk.mode,
-                  .material_class = material_class,
-                  .emits = emits,
-                  .block_columns = shape.block_columns,
-                  .strip_lanes = shape.strip_lanes};
-    if constexpr (requires { kernel.wide_keys; })
-    {
-        kernel.wide_keys = hasWideKeys(walk.job.tile.grid);
-    }
-    if constexpr (requires { kernel.mixed; })
-    {
-        kernel.mixed = walk.mode != RasterMode::Emission && walk.job.buffers.sum_form.mixed;
-    }
-    return kernel;
+    return bricks * gpu::kLeafMaskWords * (form.mixed ? 2 : 1);
 }
 
-// Calls record with the variant of a raster kernel for a walk, or of its form for devices with 64-bit atomics.
-template <typename Kernel, typename Int64Kernel, typename Record>
-void recordRaster(const RasterWalk& walk, MaterialClass material_class, const Record& record)
+std::uint32_t count32(const auto& buffer)
 {
-    if (walk.mode == RasterMode::Attributes && walk.job.buffers.sum_form.int64)
-    {
-        record(rasterKernel<Int64Kernel>(walk, material_class));
-        return;
-    }
-    record(rasterKernel<Kernel>(walk, material_class));
+    return static_cast<std::uint32_t>(buffer.count());
 }
 
 // Records the pass over `count` chunks from `first` on. single: they are of one triangle each.
-void walkChunks(vk::FrameGraph& graph, const RasterWalk& walk, MaterialClass material_class,
-                const vk::BufferOf<gpu::Chunk>& chunks, std::uint64_t first, std::uint64_t count, bool single)
+void binChunks(vk::FrameGraph& graph, const VoxelizeJob& job, MaterialClass material_class,
+               const vk::BufferOf<gpu::Chunk>& chunks, std::uint64_t first, std::uint64_t count, bool single)
 {
-    const auto record = [&](auto kernel)
-    {
-        kernel.single = single;
-        vk::Pass pass = graph.addPass(kernel);
-        gpu::RasterParams params = rasterParams(pass, walk, material_class);
-        params.chunks = pass.read(chunks);
-        params.chunks.address += first * sizeof(gpu::Chunk);
-        params.chunk_count = static_cast<std::uint32_t>(count);
-        pass.dispatch(single ? count : count * gpu::kChunkTriangles, params);
-    };
-    recordRaster<gpu::voxelize::Triangles, gpu::voxelize::TrianglesInt64>(walk, material_class, record);
+    VoxelizeBuffers& buffers = job.buffers;
+    const VoxelForm& form = buffers.form;
+    const Grid& grid = job.tile.grid;
+    vk::Pass pass =
+        graph.addPass(gpu::voxelize::Bin{.wide_keys = hasWideKeys(grid),
+                                         .single = single,
+                                         .block_lanes = tunedValue(graph.device(), Tunable::BlockLanes),
+                                         .material_class = material_class,
+                                         .coverage = form.coverage,
+                                         .mode = form.attributes ? RasterMode::Attributes : RasterMode::Coverage,
+                                         .emits = form.emission});
+    readColorTables(pass, job.scene.uploaded());
+    gpu::BinParams params{};
+    params.scene = job.scene.read(pass);
+    params.chunks = pass.read(chunks);
+    params.chunks.address += first * sizeof(gpu::Chunk);
+    params.setups = pass.accumulate(buffers.setups); // each element once, in any order
+    params.surfaces = pass.accumulate(buffers.surfaces);
+    params.bricks = pass.accumulate(buffers.table);
+    params.items = pass.accumulate(buffers.items);
+    params.voxels = pass.accumulate(buffers.voxels);
+    params.large = pass.accumulate(buffers.large);
+    params.counters = pass.readWrite(buffers.counters);
+    params.origin = grid.origin;
+    params.lattice_scale = latticeScale(grid);
+    params.window = gpu::packWindow(grid.depth, job.tile.depth, job.tile.index);
+    params.brick_mask = count32(buffers.table) - 1;
+    params.chunk_count = static_cast<std::uint32_t>(count);
+    params.setup_capacity = count32(buffers.setups);
+    params.large_capacity = count32(buffers.large);
+    params.item_capacity = count32(buffers.items);
+    pass.dispatch(single ? count : count * gpu::kChunkTriangles, params);
 }
 
-// Walks the triangles of all classes; in coverage mode the big ones are listed on the way, later modes use that list.
-// Passes of different classes need no barriers between them.
-void walkAll(vk::FrameGraph& graph, const RasterWalk& walk)
+void binLarge(vk::FrameGraph& graph, const VoxelizeJob& job)
 {
-    for (const MaterialClass material_class : kMaterialClasses)
-    {
-        walkTriangles(graph, walk, material_class, 0, walk.job.scene.uploaded().chunksOf(material_class).workgroups());
-    }
-    for (const MaterialClass material_class : kMaterialClasses)
-    {
-        listRows(graph, walk, material_class);
-    }
-    for (const MaterialClass material_class : kMaterialClasses)
-    {
-        walkRows(graph, walk, material_class);
-    }
+    VoxelizeBuffers& buffers = job.buffers;
+    const std::uint32_t lanes = tunedValue(graph.device(), Tunable::BlockLanes);
+    vk::Pass pass = graph.addPass(gpu::voxelize::BinLarge{
+        .wide_keys = hasWideKeys(job.tile.grid), .block_lanes = lanes, .coverage = buffers.form.coverage});
+    pass.dispatchIndirect(buffers.counters, &gpu::BinCounters::large,
+                          {.setups = pass.read(buffers.setups),
+                           .large = pass.read(buffers.large),
+                           .bricks = pass.accumulate(buffers.table),
+                           .items = pass.accumulate(buffers.items), // each element once, in any order
+                           .voxels = pass.accumulate(buffers.voxels),
+                           .counters = pass.readWrite(buffers.counters),
+                           .window = gpu::packWindow(job.tile.grid.depth, job.tile.depth, job.tile.index),
+                           .brick_mask = count32(buffers.table) - 1,
+                           .large_capacity = count32(buffers.large),
+                           .item_capacity = count32(buffers.items)},
+                          divideUp(buffers.large.count() * lanes, gpu::kLargeGroup));
 }
 
-void rankEmissiveVoxels(vk::FrameGraph& graph, AttributeBuffers& attributes, DeviceTree& octree)
+void listBricks(vk::FrameGraph& graph, VoxelizeBuffers& buffers)
 {
-    const auto word_count = static_cast<std::uint32_t>(octree.emission_words.count());
-    const std::uint64_t threads = divideUp(word_count, gpu::kScanItems);
-    {
-        vk::Pass pass = graph.addPass(gpu::voxelize::EmissionCount{});
-        const gpu::EmissionRankParams params = {pass.readWrite(octree.emission_words), pass.write(attributes.partials),
-                                                word_count};
-        pass.dispatch(threads, params);
-    }
-    {
-        vk::Pass pass = graph.addPass(gpu::octree::Scan{});
-        const gpu::ScanParams params = {pass.readWrite(attributes.partials), pass.write(attributes.emissive_count),
-                                        static_cast<std::uint32_t>(divideUp(word_count, gpu::kScanBlock))};
-        pass.dispatch(gpu::kScanGroup, params);
-    }
-    vk::Pass pass = graph.addPass(gpu::voxelize::EmissionRank{});
-    const gpu::EmissionRankParams params = {pass.readWrite(octree.emission_words), pass.readWrite(attributes.partials),
-                                            word_count};
-    pass.dispatch(threads, params);
+    vk::Pass pass = graph.addPass(gpu::voxelize::ListBricks{});
+    pass.dispatch(divideUp(buffers.table.count(), gpu::kListItems),
+                  {.bricks = pass.readWrite(buffers.table),
+                   .ranges = pass.write(buffers.ranges),
+                   .counters = pass.readWrite(buffers.counters),
+                   .brick_capacity = count32(buffers.table),
+                   .max_groups_x = graph.device().limits().maxComputeWorkGroupCount[0],
+                   .range_capacity = count32(buffers.ranges),
+                   .setup_capacity = count32(buffers.setups),
+                   .item_capacity = count32(buffers.items),
+                   .large_capacity = count32(buffers.large)});
 }
 
-void resolveMixed(vk::FrameGraph& graph, const VoxelizeJob& job, const vk::BufferOf<gpu::WorkItem>& leaves,
-                  AttributeBuffers& attributes, DeviceTree& octree)
+// args: of the workgroups for items whose voxels are known, or for the others.
+void coverItems(vk::FrameGraph& graph, const VoxelizeJob& job, bool small, gpu::DispatchArgs gpu::BinCounters::*args)
 {
-    const std::uint32_t leaf_count = octree.levels.back().node_count;
-    const std::uint32_t lanes = lanesOn(graph.device(), leaf_count);
-    vk::Pass pass = graph.addPass(gpu::voxelize::ResolveMixed{.wide_keys = hasWideKeys(job.tile.grid), .lanes = lanes});
-    pass.dispatch(std::uint64_t{leaf_count} * lanes,
-                  {.scene = readColorTables(pass, job.scene.uploaded()),
-                   .bricks = pass.read(job.buffers.bricks),
-                   .items = pass.read(leaves),
-                   .nodes = pass.read(octree.nodes),
-                   .sums = pass.read(attributes.sums),
-                   .attributes = pass.readWrite(octree.voxel_attributes),
-                   .max_fragments = pass.readWrite(attributes.max_fragments),
-                   .brick_mask = static_cast<std::uint32_t>(job.buffers.brickCapacity() - 1),
-                   .leaf_count = leaf_count,
-                   .sum_shift = attributes.sum_shift});
-}
-
-AttributeSums sumsOf(AttributeBuffers& attributes, DeviceTree& octree)
-{
-    return {octree.nodes,         attributes.sums,         octree.emission_words, attributes.emission_sums,
-            attributes.sum_shift, &octree.voxel_attributes};
+    VoxelizeBuffers& buffers = job.buffers;
+    vk::Pass pass = graph.addPass(gpu::voxelize::Cover{.wide_keys = hasWideKeys(job.tile.grid),
+                                                       .mixed = buffers.form.mixed,
+                                                       .small = small,
+                                                       .material_class = job.scene.uploaded().highestClass(),
+                                                       .coverage = buffers.form.coverage,
+                                                       .emits = buffers.form.emission});
+    readColorTables(pass, job.scene.uploaded());
+    pass.dispatchIndirect(buffers.counters, args,
+                          {.scene = job.scene.read(pass),
+                           .setups = pass.read(buffers.setups),
+                           .surfaces = pass.read(buffers.surfaces),
+                           .bricks = pass.read(buffers.table),
+                           .items = pass.read(buffers.items),
+                           .voxels = pass.accumulate(buffers.voxels), // a thread its own
+                           .masks = pass.accumulate(buffers.masks),
+                           .counters = pass.read(buffers.counters),
+                           .window = gpu::packWindow(job.tile.grid.depth, job.tile.depth, job.tile.index)},
+                          divideUp(buffers.items.count(), gpu::kItemsGroup));
 }
 
 } // namespace
 
-RowShape RowShape::on(const vk::Device& device)
-{
-    const std::uint32_t columns = tunedValue(device, Tunable::RowColumns);
-    return {columns, std::max(tunedValue(device, Tunable::BandLanes), kProductMin / columns)};
-}
-
-SumForm SumForm::on(const vk::Device& device)
-{
-    return {.int64 = device.isEnabled(kInt64Atomics), .mixed = tunedValue(device, Tunable::MixedSums) != 0};
-}
-
-VoxelizeEstimate VoxelizeEstimate::of(const GpuScene& scene, const Grid& grid, RowShape shape)
+VoxelizeEstimate VoxelizeEstimate::of(const GpuScene& scene, const Grid& grid, Coverage coverage)
 {
     const double voxel = grid.voxel_size;
     const double area = scene.surface_area / (voxel * voxel);
-    const double grid_leaves = std::pow(static_cast<double>(grid.resolution()) / 4, 3);
+    const double grid_leaves = std::pow(std::max(static_cast<double>(grid.resolution()) / 4, 1.0), 3);
+    const auto triangles = static_cast<double>(scene.triangle_count);
     VoxelizeEstimate result;
     result.leaves = std::min(area * 1.5 / 16, grid_leaves); // a plane meets about 1.5 per 16 voxels of area
-    // A big triangle covers some 16 voxels or more, and has as many rows as a square of its bounding box' area.
-    result.big_triangles = std::min(static_cast<double>(scene.triangle_count), area / 16);
-    const double strips = result.big_triangles + std::sqrt(result.big_triangles * 2 * area) / gpu::kBlockRows;
-    result.row_blocks = strips + 2 * area / (gpu::kBlockRows * shape.block_columns);
+    result.bricks = result.leaves / 10;                     // a surface crosses a brick in 14 leaves or more
+    // Thin coverage leaves a triangle without voxels where no line through voxels' centres meets it: it has a fragment
+    // for each unit of its area, or less.
+    result.setups = coverage == Coverage::Thin ? std::min(triangles, area) : triangles;
+    // A triangle of a columns has about a / 16 items, 0.75 sqrt(a) along its edges, and one.
+    result.items = 1.15 * result.leaves + 0.75 * std::sqrt(result.setups * area) + result.setups;
+    result.large = std::min(triangles, area / 6);
     return result;
 }
 
-VoxelizeCapacities VoxelizeCapacities::estimate(const GpuScene& scene, const Grid& grid, RowShape shape)
+VoxelizeCapacities VoxelizeCapacities::estimate(const GpuScene& scene, const Grid& grid, Coverage coverage)
 {
-    // An inner node stands above every eight leaves or so. The table should be no more than half full.
-    const VoxelizeEstimate likely = VoxelizeEstimate::of(scene, grid, shape);
+    const VoxelizeEstimate likely = VoxelizeEstimate::of(scene, grid, coverage);
     VoxelizeCapacities result;
-    result.bricks = std::bit_ceil(clampedCount(likely.leaves * 1.15 * 2, kBricksMin, kBricksGuessMax));
-    result.big_triangles = clampedCount(likely.big_triangles * 1.5, kBigTrianglesMin, kBigTrianglesGuessMax);
-    result.row_blocks = clampedCount(likely.row_blocks * 1.5, kRowBlocksMin, kRowBlocksGuessMax);
+    result.bricks = clampedCount(likely.bricks, kCountMin, kBricksGuessMax);
+    result.table = std::bit_ceil(2 * result.bricks); // with the nodes above, no more than two thirds full
+    result.setups = std::min(clampedCount(likely.setups * 1.05, kItemsMin, kItemsGuessMax), scene.triangle_count);
+    result.items = clampedCount(likely.items * 1.05, kItemsMin, kItemsGuessMax);
+    result.large = clampedCount(likely.large, kCountMin, kBricksGuessMax);
     return result;
+}
+
+const char* VoxelizeCapacities::uncountable(const gpu::BinCounters& counters) const
+{
+    if (counters.blocks_exceeded != 0)
+    {
+        return "pieces of large triangles";
+    }
+    if (counters.item_carry != 0 || counters.item_count > kItemsMax || counters.setup_count > kItemsMax)
+    {
+        return "pieces of triangles";
+    }
+    const bool is_full = counters.overflow_count != 0 && table >= kTableMax;
+    return counters.brick_count > kBricksMax || is_full ? "octree nodes" : nullptr;
+}
+
+VoxelizeCapacities VoxelizeCapacities::grownFor(const gpu::BinCounters& counters) const
+{
+    if (const char* what = uncountable(counters))
+    {
+        throwUncountable(what);
+    }
+    VoxelizeCapacities grown = *this;
+    grown.bricks = std::max<std::uint64_t>(bricks, counters.brick_count);
+    grown.setups = std::max<std::uint64_t>(setups, counters.setup_count);
+    grown.items = std::max<std::uint64_t>(items, counters.item_count);
+    grown.large = std::max<std::uint64_t>(large, counters.large_count);
+    grown.table = std::max(table, std::bit_ceil(2 * grown.bricks));
+    if (counters.overflow_count != 0)
+    {
+        grown.table = std::min(std::max(grown.table, 4 * table), kTableMax);
+    }
+    return grown;
+}
+
+std::uint64_t VoxelizeCapacities::bytes(const GpuScene& scene, const VoxelForm& form) const
+{
+    return table * sizeof(gpu::BrickEntry) + setups * sizeof(gpu::TriangleSetup) +
+           surfacesOf(form, scene, setups) * sizeof(gpu::SurfaceSetup) + items * sizeof(gpu::BrickItem) +
+           voxelsOf(form, items) * sizeof(gpu::ItemVoxels) + large * sizeof(gpu::LargeBlock) +
+           bricks * sizeof(gpu::BrickRange) + maskWordsOf(form, bricks) * sizeof(gpu::uint);
 }
 
 VoxelizeBuffers::VoxelizeBuffers(vk::Device& device, const VoxelizeCapacities& capacities, const GpuScene& scene,
-                                 std::optional<RowShape> asked, std::optional<SumForm> asked_form)
-    : counters(device, "voxelize/brick_counters", 1), shape(asked.value_or(RowShape::on(device))),
-      sum_form(asked_form.value_or(SumForm::on(device)))
+                                 const VoxelForm& voxel_form)
+    : form(voxel_form), table(device, "voxelize/bricks", capacities.table),
+      setups(device, "voxelize/setups", capacities.setups),
+      surfaces(device, "voxelize/surfaces", surfacesOf(form, scene, capacities.setups)),
+      items(device, "voxelize/items", capacities.items),
+      voxels(device, "voxelize/item_voxels", voxelsOf(form, capacities.items)),
+      large(device, "voxelize/large_blocks", capacities.large),
+      ranges(device, "voxelize/brick_ranges", capacities.bricks),
+      masks(device, "voxelize/brick_masks", maskWordsOf(form, capacities.bricks)),
+      counters(device, "voxelize/bin_counters", 1)
 {
-    sum_form.mixed = sum_form.mixed && asked_form;
-    bricks = {device, "voxelize/bricks", brickBytes(capacities.bricks, sum_form.mixed) / sizeof(gpu::BrickEntry)};
-    assert(!sum_form.int64 || device.isEnabled(kInt64Atomics));
-    assert(std::has_single_bit(shape.block_columns) && shape.block_columns >= 4);
-    assert(shape.block_columns <= RowShape::kBlockColumnsMax);
-    assert(std::has_single_bit(shape.strip_lanes) && shape.strip_lanes <= gpu::kBandsGroup);
-    assert(shape.block_columns * shape.strip_lanes >= RowShape::kProductMin);
-    for (std::size_t i = 0; i < rows.size(); ++i)
-    {
-        if (scene.chunks[i].workgroups() != 0)
-        {
-            rows[i].big_triangles = {device, "voxelize/big_triangles", capacities.big_triangles};
-            rows[i].row_blocks = {device, "voxelize/row_blocks", capacities.row_blocks};
-            rows[i].counters = {device, "voxelize/raster_counters", 1};
-        }
-    }
+    assert(std::has_single_bit(capacities.table));
 }
 
-std::uint64_t VoxelizeBuffers::brickBytes(std::uint64_t capacity, bool mixed)
+std::map<std::string, std::uint64_t> droppedTriangles(const gpu::BinCounters& counters)
 {
-    return capacity * (sizeof(gpu::BrickEntry) + (mixed ? sizeof(gpu::MixedVoxels) : 0));
+    std::map<std::string, std::uint64_t> dropped = {{"nonfinite", counters.nonfinite},
+                                                    {"out_of_range", counters.out_of_range},
+                                                    {"outside", counters.outside},
+                                                    {"zero_area", counters.zero_area}};
+    std::erase_if(dropped, [](const auto& entry) { return entry.second == 0; });
+    return dropped;
 }
 
-AttributeBuffers::AttributeBuffers(vk::Device& device, std::uint32_t voxel_count, std::uint32_t sum_count,
-                                   bool emission)
-    : sums(device, "voxelize/sums", sum_count), max_fragments(device, "voxelize/max_fragments", 1)
+void clearVoxels(vk::FrameGraph& graph, VoxelizeBuffers& buffers)
 {
-    if (emission)
-    {
-        partials = {device, "voxelize/partials",
-                    divideUp(divideUp(voxel_count, gpu::kVoxelsPerEmissionWord), gpu::kScanBlock)};
-        emissive_count = {device, "voxelize/emissive_count", 1};
-    }
-}
-
-void clearCoverage(vk::FrameGraph& graph, VoxelizeBuffers& buffers)
-{
-    graph.fill(buffers.bricks, 0);
+    graph.fill(buffers.table, 0);
     graph.fill(buffers.counters, 0);
-    for (VoxelizeBuffers::RowWork& rows : buffers.rows)
-    {
-        if (rows.counters.count() != 0)
-        {
-            graph.fill(rows.counters, 0);
-        }
-    }
+    graph.fill(buffers.masks, 0);
 }
 
-void walkTriangles(vk::FrameGraph& graph, const RasterWalk& walk, MaterialClass material_class,
-                   std::uint64_t first_group, std::uint64_t group_count)
+void binTriangles(vk::FrameGraph& graph, const VoxelizeJob& job, MaterialClass material_class,
+                  std::uint64_t first_group, std::uint64_t group_count)
 {
-    const TriangleChunks& chunks = walk.job.scene.uploaded().chunksOf(material_class);
+    assert(job.scene.uploaded().texture_grid.value_or(job.tile.grid) == job.tile.grid);
+    const TriangleChunks& chunks = job.scene.uploaded().chunksOf(material_class);
     const std::uint64_t end = first_group + group_count;
     const std::uint64_t whole_end = std::min(end, chunks.whole.count());
     if (first_group < whole_end)
     {
-        walkChunks(graph, walk, material_class, chunks.whole, first_group, whole_end - first_group, false);
+        binChunks(graph, job, material_class, chunks.whole, first_group, whole_end - first_group, false);
     }
     if (end > chunks.whole.count())
     {
@@ -309,94 +284,26 @@ void walkTriangles(vk::FrameGraph& graph, const RasterWalk& walk, MaterialClass 
         const std::uint64_t first = first_single * gpu::kChunkTriangles;
         const std::uint64_t single_end =
             std::min((end - chunks.whole.count()) * gpu::kChunkTriangles, chunks.single.count());
-        walkChunks(graph, walk, material_class, chunks.single, first, single_end - first, true);
+        binChunks(graph, job, material_class, chunks.single, first, single_end - first, true);
     }
 }
 
-void listRows(vk::FrameGraph& graph, const RasterWalk& walk, MaterialClass material_class)
+void coverBricks(vk::FrameGraph& graph, const VoxelizeJob& job)
 {
-    if (walk.mode != RasterMode::Coverage || walk.job.scene.uploaded().chunksOf(material_class).workgroups() == 0)
-    {
-        return;
-    }
-    VoxelizeBuffers::RowWork& rows = walk.job.buffers.rowsOf(material_class);
-    vk::Pass pass = graph.addPass(rasterKernel<gpu::voxelize::Bands>(walk, material_class));
-    pass.dispatchIndirect(rows.counters, &gpu::RasterCounters::bands, rasterParams(pass, walk, material_class),
-                          divideUp(rows.big_triangles.count() * walk.job.buffers.shape.strip_lanes, gpu::kBandsGroup));
-}
-
-void walkRows(vk::FrameGraph& graph, const RasterWalk& walk, MaterialClass material_class)
-{
-    if (walk.job.scene.uploaded().chunksOf(material_class).workgroups() == 0)
-    {
-        return;
-    }
-    VoxelizeBuffers::RowWork& rows = walk.job.buffers.rowsOf(material_class);
-    const auto record = [&](const auto& kernel)
-    {
-        vk::Pass pass = graph.addPass(kernel);
-        pass.dispatchIndirect(rows.counters, &gpu::RasterCounters::rows, rasterParams(pass, walk, material_class),
-                              divideUp(rows.row_blocks.count() * gpu::kBlockRows, gpu::kRowsGroup));
-    };
-    recordRaster<gpu::voxelize::Rows, gpu::voxelize::RowsInt64>(walk, material_class, record);
+    binLarge(graph, job);
+    listBricks(graph, job.buffers);
+    coverItems(graph, job, true, &gpu::BinCounters::small);
+    coverItems(graph, job, false, &gpu::BinCounters::cover);
 }
 
 void voxelizeCoverage(vk::FrameGraph& graph, const VoxelizeJob& job)
 {
-    clearCoverage(graph, job.buffers);
-    walkAll(graph, {job});
-}
-
-void resolveVoxels(vk::FrameGraph& graph, const GpuScene& scene, AttributeBuffers& attributes, DeviceTree& octree)
-{
-    vk::Pass pass = graph.addPass(gpu::voxelize::Resolve{});
-    pass.dispatch(octree.voxel_count, {.scene = readColorTables(pass, scene),
-                                       .sums = pass.read(attributes.sums),
-                                       .emission_words = pass.read(octree.emission_words),
-                                       .attributes = pass.write(octree.voxel_attributes),
-                                       .max_fragments = pass.readWrite(attributes.max_fragments),
-                                       .voxel_count = octree.voxel_count,
-                                       .has_emission = octree.emission_words.count() != 0 ? 1U : 0U,
-                                       .sum_shift = attributes.sum_shift});
-}
-
-void voxelizeAttributes(vk::FrameGraph& graph, const VoxelizeJob& job, const vk::BufferOf<gpu::WorkItem>& leaves,
-                        AttributeBuffers& attributes, DeviceTree& octree)
-{
-    const bool emission = octree.emission_words.count() != 0;
-    assert(!emission || !job.buffers.sum_form.mixed);
-    graph.fill(attributes.sums, 0);
-    graph.fill(attributes.max_fragments, 0);
-    if (emission)
+    clearVoxels(graph, job.buffers);
+    for (const MaterialClass material_class : kMaterialClasses)
     {
-        graph.fill(octree.emission_words, 0);
+        binTriangles(graph, job, material_class, 0, job.scene.uploaded().chunksOf(material_class).workgroups());
     }
-    const AttributeSums sums = sumsOf(attributes, octree);
-    walkAll(graph, {job, RasterMode::Attributes, &sums});
-    if (job.buffers.sum_form.mixed)
-    {
-        resolveMixed(graph, job, leaves, attributes, octree);
-        return;
-    }
-    resolveVoxels(graph, job.scene.uploaded(), attributes, octree);
-    if (emission)
-    {
-        rankEmissiveVoxels(graph, attributes, octree);
-    }
-}
-
-void voxelizeEmission(vk::FrameGraph& graph, const VoxelizeJob& job, AttributeBuffers& attributes, DeviceTree& octree)
-{
-    graph.fill(attributes.emission_sums, 0);
-    const AttributeSums sums = sumsOf(attributes, octree);
-    walkAll(graph, {job, RasterMode::Emission, &sums});
-    vk::Pass pass = graph.addPass(gpu::voxelize::ResolveEmission{});
-    pass.dispatch(octree.voxel_count, {.sums = pass.read(attributes.sums),
-                                       .emission_sums = pass.read(attributes.emission_sums),
-                                       .emission_words = pass.read(octree.emission_words),
-                                       .emission = pass.write(octree.emission),
-                                       .voxel_count = octree.voxel_count,
-                                       .sum_shift = attributes.sum_shift});
+    coverBricks(graph, job);
 }
 
 } // namespace zvo
