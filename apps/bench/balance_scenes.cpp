@@ -13,6 +13,7 @@ namespace
 {
 
 constexpr std::uint32_t kCrowdMax = 200000;
+constexpr std::uint32_t kBoxesMax = 100000;
 constexpr float kSlopeX = 0.2F; // slope of the plane of triangle and patch
 constexpr float kSlopeY = 0.13F;
 
@@ -54,10 +55,16 @@ glm::vec3 direction(std::mt19937& random)
     }
 }
 
+// At most as many as there are blocks of edge^3 voxels.
+std::uint32_t countOf(std::uint32_t most, std::uint32_t resolution, std::uint32_t edge)
+{
+    const std::uint64_t blocks = resolution / edge;
+    return static_cast<std::uint32_t>(std::clamp<std::uint64_t>(blocks * blocks * blocks, 1, most));
+}
+
 std::uint32_t crowdCount(std::uint32_t resolution)
 {
-    const std::uint64_t half = resolution / 2;
-    return static_cast<std::uint32_t>(std::clamp<std::uint64_t>(half * half * half, 1, kCrowdMax));
+    return countOf(kCrowdMax, resolution, 2);
 }
 
 // Adds an equilateral triangle, whose middle is at the origin inside the voxel around it.
@@ -77,16 +84,29 @@ void addThroughMiddle(std::vector<glm::vec3>& corners, const glm::vec3& middle, 
     }
 }
 
-// Middles of voxels on a lattice over the whole grid, with as many on each edge as the crowd needs.
+// Points of a cubic lattice, with as many on each edge as `count` needs.
+struct Lattice
+{
+    std::uint32_t edge = 1;
+    std::uint32_t step = 1;
+};
+
+Lattice latticeOf(std::uint32_t count, std::uint32_t resolution)
+{
+    Lattice lattice;
+    while (std::uint64_t{lattice.edge} * lattice.edge * lattice.edge < count)
+    {
+        ++lattice.edge;
+    }
+    lattice.step = std::max(resolution / lattice.edge, 1U);
+    return lattice;
+}
+
+// Middles of voxels over the whole grid.
 std::vector<glm::vec3> crowdMiddles(std::uint32_t resolution)
 {
     const std::uint32_t count = crowdCount(resolution);
-    std::uint32_t edge = 1;
-    while (std::uint64_t{edge} * edge * edge < count)
-    {
-        ++edge;
-    }
-    const std::uint32_t step = std::max(resolution / edge, 1U);
+    const auto [edge, step] = latticeOf(count, resolution);
     std::vector<glm::vec3> middles;
     for (std::uint32_t i = 0; i < count; ++i)
     {
@@ -161,6 +181,58 @@ Scene crowdedTriangles(std::uint32_t resolution)
 Scene spreadTriangles(std::uint32_t resolution)
 {
     return crowd(crowdMiddles(resolution));
+}
+
+Scene brickTriangles(std::uint32_t resolution)
+{
+    const glm::vec3 low = glm::vec3(static_cast<float>(resolution / 32 * 16) + 0.5F);
+    const std::uint32_t edge = std::min(resolution, 16U);
+    std::vector<glm::vec3> middles;
+    for (std::uint32_t i = 0; i < crowdCount(resolution); ++i)
+    {
+        middles.push_back(low + glm::vec3(glm::uvec3(i, i / edge, i / edge / edge) % edge));
+    }
+    return crowd(middles);
+}
+
+Scene fanOfSlivers(std::uint32_t resolution)
+{
+    constexpr int kSlivers = 2000;
+    const float half = static_cast<float>(resolution) / 2;
+    std::mt19937 random(1);
+    std::vector<glm::vec3> corners;
+    for (int i = 0; i < kSlivers; ++i)
+    {
+        const glm::vec3 end = glm::vec3(half) + half * direction(random);
+        corners.insert(corners.end(), {glm::vec3(half), end, end + 2.0F * direction(random)});
+    }
+    return soupOf(std::move(corners));
+}
+
+Scene manyBoxes(std::uint32_t resolution)
+{
+    const std::uint32_t count = countOf(kBoxesMax, resolution, 4);
+    const auto [edge, step] = latticeOf(count, resolution);
+    const float size = 0.6F * static_cast<float>(step);
+    std::vector<glm::vec3> corners;
+    for (std::uint32_t i = 0; i < count; ++i)
+    {
+        const glm::vec3 low = glm::vec3(glm::uvec3(i % edge, i / edge % edge, i / edge / edge) * step) + 0.25F;
+        for (int face = 0; face < 6; ++face)
+        {
+            const int axis = face % 3;
+            glm::vec3 quad[4];
+            for (int corner = 0; corner < 4; ++corner)
+            {
+                quad[corner] = low;
+                quad[corner][axis] += face < 3 ? 0.0F : size;
+                quad[corner][(axis + 1) % 3] += corner % 2 == 0 ? 0.0F : size;
+                quad[corner][(axis + 2) % 3] += corner / 2 == 0 ? 0.0F : size;
+            }
+            corners.insert(corners.end(), {quad[0], quad[1], quad[3], quad[0], quad[3], quad[2]});
+        }
+    }
+    return soupOf(std::move(corners));
 }
 
 } // namespace zvo::cli

@@ -24,4 +24,13 @@ Scene crowdedTriangles(std::uint32_t resolution);
 /// The same triangles, each through the middle of its own voxel.
 Scene spreadTriangles(std::uint32_t resolution);
 
+/// As many triangles through the middles of the voxels of one brick, a block of 16^3, in turns.
+Scene brickTriangles(std::uint32_t resolution);
+
+/// 2,000 slivers, two voxels wide, from the grid's middle in all directions: all touch the brick there.
+Scene fanOfSlivers(std::uint32_t resolution);
+
+/// 100,000 boxes on a lattice; at low resolutions, as many as there are blocks of 4^3 voxels.
+Scene manyBoxes(std::uint32_t resolution);
+
 } // namespace zvo::cli

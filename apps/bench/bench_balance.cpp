@@ -36,9 +36,10 @@ struct GeneratedScene
 };
 
 constexpr std::array kGeneratedScenes = {
-    GeneratedScene{"triangle", largeTriangle, true}, GeneratedScene{"patch", smallTriangles, true},
+    GeneratedScene{"triangle", largeTriangle, true},   GeneratedScene{"patch", smallTriangles, true},
     GeneratedScene{"slivers", diagonalSlivers, false}, GeneratedScene{"crowded", crowdedTriangles, false},
-    GeneratedScene{"spread", spreadTriangles, false}};
+    GeneratedScene{"spread", spreadTriangles, false},  GeneratedScene{"brick", brickTriangles, false},
+    GeneratedScene{"fan", fanOfSlivers, false},        GeneratedScene{"boxes", manyBoxes, false}};
 
 /// One scene at one resolution: milliseconds of voxelization and octree construction.
 struct BalanceRow
@@ -181,7 +182,10 @@ std::vector<BalanceRatio> ratiosOf(const std::vector<BalanceRow>& rows, const st
         };
         ratios.push_back(ratioOf("triangle / patch", row("triangle"), row("patch"), true));
         ratios.push_back(ratioOf("sliver / patch", row("slivers"), row("patch"), true));
+        ratios.push_back(ratioOf("fan / patch", row("fan"), row("patch"), true));
+        ratios.push_back(ratioOf("boxes / patch", row("boxes"), row("patch"), true));
         ratios.push_back(ratioOf("crowded / spread", row("crowded"), row("spread"), false));
+        ratios.push_back(ratioOf("brick / spread", row("brick"), row("spread"), false));
         if (std::optional<BalanceRatio> scenes = slowestOverFastest(rows, resolution))
         {
             ratios.push_back(*std::move(scenes));
@@ -209,7 +213,7 @@ std::string tableHead(const vk::DeviceReport& device, const BenchBalanceOptions&
 
 std::string ratioTable(const std::vector<BalanceRatio>& ratios)
 {
-    std::string table = "\nRatios of times a voxel; crowded / spread and doubling (to this resolution) of whole "
+    std::string table = "\nRatios of times a voxel; those to spread and doubling (to this resolution) of whole "
                         "times:\n\n" +
                         columnNames(ratioColumns());
     for (const BalanceRatio& ratio : ratios)

@@ -72,7 +72,7 @@ struct ThesisSetupParams // push constants of baseline/thesis_setup
     GPU_PTR(ThesisTriangle) triangles; // [triangles of all classes]
     GPU_PTR(uint) big;                 // [triangles of all classes] those whose boxes have more than one part
     GPU_PTR(ThesisCounters) counters;
-    vec3 origin; // as in RasterParams, like the next two
+    vec3 origin; // as in BinParams, like the next two
     float lattice_scale;
     uint window;
     uint chunk_count;

@@ -179,12 +179,6 @@ int columnLayer(RasterTriangle t, ivec2 column, EDGE_INT addend_high, int addend
     return layer;
 }
 
-// Where the first row block of a triangle begins, whose box begins at low: tiles are aligned to leaves.
-ivec2 blockOrigin(ivec2 low)
-{
-    return kThin ? low & ~3 : low;
-}
-
 // The walk's state at the first layer of a column.
 RasterCell startColumn(RasterTriangle t, ivec2 column)
 {

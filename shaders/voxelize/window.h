@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The window of a voxelization: the cube of the grid that is voxelized, or the whole grid. RasterParams::window holds
-// it in a word:
+// The window of a voxelization: the cube of the grid that is voxelized, or the whole grid. BinParams::window holds it
+// in a word:
 //
 //     | depth of the grid 5 | depth of the cube 5 | x 7 | y 7 | z 7 | unused 1 |    from the lowest bit on
 //

@@ -355,8 +355,8 @@ TEST(ApiTuning, IsTakenOrRefused)
     const auto hostWith = [](std::string_view tuning)
     { return test::EmbeddingHost({}, [&](ContextInfo& info) { info.tuning = tuning; }); };
     expectUsage([&] { hostWith("rows=1"); }, "ContextInfo::tuning rows=1");
-    expectUsage([&] { hostWith("row-columns=1"); }, "ContextInfo::tuning row-columns=1");
-    hostWith("row-columns=64,path-form=kernel").frame([](Recorder&) {});
+    expectUsage([&] { hostWith("block-lanes=3"); }, "ContextInfo::tuning block-lanes=3");
+    hostWith("block-lanes=8,path-form=kernel").frame([](Recorder&) {});
 }
 
 TEST_F(ApiArguments, TreesAreMadeVisibleToShaders)

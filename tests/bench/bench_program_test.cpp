@@ -74,7 +74,7 @@ TEST_F(BenchRun, BuildTellsOfTreesAndWhatMakingThemTakes)
     EXPECT_TRUE(contains(outcome.out, " compress ms |"));
     EXPECT_FALSE(contains(outcome.out, "Mrays/s"));
     EXPECT_FALSE(contains(outcome.out, "Embree"));
-    EXPECT_TRUE(contains(outcome.out, "| voxelize/triangles "));
+    EXPECT_TRUE(contains(outcome.out, "| voxelize/bin "));
     EXPECT_TRUE(contains(outcome.out, "| svdag/insert (DAG) "));
     EXPECT_FALSE(contains(outcome.out, "| trace/"));
     const json report = json::parse(file("build.json"));
@@ -180,7 +180,7 @@ TEST_F(BenchRun, ReportTellsOfSeveral)
     EXPECT_TRUE(contains(told, "| pictures of a cube ")) << told;
     EXPECT_TRUE(contains(told, " reached |")) << told;
     EXPECT_TRUE(contains(told, "\ncube at 16:\n"));
-    EXPECT_TRUE(contains(told, "| voxelize/triangles "));
+    EXPECT_TRUE(contains(told, "| voxelize/bin "));
     EXPECT_TRUE(contains(told, "| trace/primary"));
 }
 
@@ -235,8 +235,8 @@ TEST_F(BenchRun, BalanceTellsEverySceneAndItsRatios)
             fine[row["scene"]] = row;
         }
     }
-    EXPECT_EQ(report["rows"].size(), 12U);
-    ASSERT_EQ(fine.size(), 6U);
+    EXPECT_EQ(report["rows"].size(), 18U);
+    ASSERT_EQ(fine.size(), 9U);
     EXPECT_EQ(fine["cube"]["voxels"], build(m_grid).octree.voxel_count);
     EXPECT_EQ(fine["triangle"]["triangles"], 1);
     EXPECT_GE(fine["triangle"]["voxels"], 16 * 16);
@@ -246,6 +246,9 @@ TEST_F(BenchRun, BalanceTellsEverySceneAndItsRatios)
     EXPECT_EQ(fine["crowded"]["voxels"], 1);
     EXPECT_EQ(fine["crowded"]["triangles"], fine["spread"]["triangles"]);
     EXPECT_EQ(fine["spread"]["voxels"], fine["spread"]["triangles"]);
+    EXPECT_EQ(fine["brick"]["voxels"], 16 * 16 * 16);
+    EXPECT_EQ(fine["fan"]["triangles"], 2000);
+    EXPECT_EQ(fine["boxes"]["triangles"], 8 * 8 * 8 * 12);
     std::map<std::string, int> ratio_counts;
     for (const json& ratio : report["ratios"])
     {
@@ -255,7 +258,10 @@ TEST_F(BenchRun, BalanceTellsEverySceneAndItsRatios)
     }
     EXPECT_EQ(ratio_counts, (std::map<std::string, int>{{"triangle / patch", 2},
                                                         {"sliver / patch", 2},
+                                                        {"fan / patch", 2},
+                                                        {"boxes / patch", 2},
                                                         {"crowded / spread", 2},
+                                                        {"brick / spread", 2},
                                                         {"doubling", 3},
                                                         {"largest doubling", 1}}));
 }
@@ -264,8 +270,8 @@ TEST_F(BenchRun, BalanceNeedsNoAttributesAndNoFiles)
 {
     const json report =
         json::parse(run({"balance", "--resolutions", "16", "--runs", "1", "--attributes", "none", "--json", "-"}).out);
-    EXPECT_EQ(report["rows"].size(), 5U);
-    EXPECT_EQ(report["ratios"].size(), 3U);
+    EXPECT_EQ(report["rows"].size(), 8U);
+    EXPECT_EQ(report["ratios"].size(), 6U);
     EXPECT_TRUE(report["rows"][0]["attributes_ms"].is_null());
     EXPECT_TRUE(report["ratios"][0]["attributes"].is_null());
 }

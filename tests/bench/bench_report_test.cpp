@@ -24,7 +24,7 @@ Json builtReport()
         {"scene": "ball", "resolution": 128, "triangles": 1000, "voxels": 2000, "nodes": 500, "rays": 4000,
          "voxelize_ms": {"median": 2.5, "min": 1}, "build_ms": {"median": 0.5}, "compress_ms": null,
          "passes": [{"name": "octree/place", "ms": 0.25}, {"name": "trace/primary", "ms": 2},
-                    {"name": "voxelize/rows", "ms": 1}]}]})");
+                    {"name": "voxelize/bin_large", "ms": 1}]}]})");
 }
 
 Json movingReport()
@@ -129,7 +129,7 @@ TEST(BenchReport, SlowestPassesHaveTheirTimeForEachElement)
     const auto lines = cells(slowestPasses(row, 2));
     ASSERT_EQ(lines.size(), 2U);
     EXPECT_EQ(lines[0], (Words{"trace/primary", "2.0000", "61.5%", "-", "-", "-", "500"}));
-    EXPECT_EQ(lines[1], (Words{"voxelize/rows", "1.0000", "30.8%", "1000", "500", "2000", "-"}));
+    EXPECT_EQ(lines[1], (Words{"voxelize/bin_large", "1.0000", "30.8%", "1000", "500", "2000", "-"}));
     EXPECT_EQ(cells(slowestPasses(row, 9)).size(), 3U);
     EXPECT_EQ(slowestPasses(builtReport()["rows"][0], 9), "");
 }

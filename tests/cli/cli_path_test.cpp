@@ -251,7 +251,7 @@ TEST_F(CliPath, DarknessIsToldOf)
 TEST_F(CliPath, TuningKeepsThePicture)
 {
     run(kCube + "-o plain.png");
-    run(kCube + "-o tuned.png --tuning row-columns=64,node-lanes=8");
+    run(kCube + "-o tuned.png --tuning block-lanes=8,node-lanes=8");
     EXPECT_EQ(file("tuned.png"), file("plain.png"));
 }
 

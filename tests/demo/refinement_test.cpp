@@ -121,7 +121,7 @@ TEST(ResolutionLadder, SizesHaveAPixelAtLeast)
 TEST(ResolutionLadder, IsToldOfPassesThatScale)
 {
     const std::array<vk::PassTime, 6> passes = {{{"radiance/update", 53},
-                                                 {"voxelize/triangles", 106},
+                                                 {"voxelize/bin", 106},
                                                  {"trace/node_paths", 5},
                                                  {"trace/primary", 20},
                                                  {"radiance/view", 10},

@@ -48,7 +48,7 @@ struct Job
 
 Job smallJob()
 {
-    return {test::sphereScene(glm::vec3(0.0F), 1.0F, 6), false, {1 << 8, 1, 16}};
+    return {test::sphereScene(glm::vec3(0.0F), 1.0F, 6), false, {1 << 7, 1 << 6, 1 << 7, 1 << 10, 1}};
 }
 
 Job wholeJob()

@@ -65,7 +65,7 @@ struct Outcome
 };
 
 // Builds and compresses on a new device, whose kernel with this number cannot be made at first.
-Outcome outcome(const Scene& scene, const Grid& grid, bool by_bricks, std::uint64_t failing_kernel)
+Outcome outcome(const Scene& scene, const Grid& grid, std::uint64_t failing_kernel)
 {
     vk::HeadlessOptions options = test::deviceOptions();
     options.get_instance_proc_addr = test::failingVulkan();
@@ -73,9 +73,7 @@ Outcome outcome(const Scene& scene, const Grid& grid, bool by_bricks, std::uint6
     const GpuScene uploaded = uploadScene(device, scene, true);
     test::failCallOf("vkCreateComputePipelines", failing_kernel);
     Outcome result;
-    BuildOptions build = {Coverage::Thin, true, {}};
-    build.by_bricks = by_bricks;
-    OctreeBuilder octree(device.device(), uploaded, grid, build);
+    OctreeBuilder octree(device.device(), uploaded, grid, {Coverage::Thin, true, {}});
     result.failures += takeSteps(device, octree);
     DeviceTree built = octree.take().octree;
     result.octree = test::zvoSha256(downloadTree(device, built));
@@ -94,13 +92,13 @@ TEST(RepeatedSteps, GiveTheSameBytes)
     Scene scene = test::materialsScene(10.0F, 20);
     Grid grid = Grid::around(scene.bounds(), 6);
     grid.depth = 13; // the scene lies in a corner; the brick table has keys of 64 bits, which leave the least room
-    const Outcome expected = outcome(scene, grid, false, UINT64_MAX);
+    const Outcome expected = outcome(scene, grid, UINT64_MAX);
     ASSERT_EQ(expected.failures, 0U);
     constexpr std::uint64_t kStep = 5; // making a device takes time; 15 is one of the kernels that number nodes
     std::uint64_t number = 0;
     for (std::uint32_t failures = 1; failures == 1; number += kStep)
     {
-        const Outcome repeated = outcome(scene, grid, false, number);
+        const Outcome repeated = outcome(scene, grid, number);
         failures = repeated.failures;
         EXPECT_EQ(repeated.octree, expected.octree) << "kernel " << number;
         EXPECT_TRUE(repeated.dag.empty() || repeated.dag == expected.dag) << "kernel " << number;
@@ -109,13 +107,13 @@ TEST(RepeatedSteps, GiveTheSameBytes)
 
     for (Material& material : scene.materials)
     {
-        material.emission = glm::vec3(0.0F); // what emits light goes by triangles
+        material.emission = glm::vec3(0.0F); // so that sums are kept of mixed voxels alone
     }
-    const std::string dark = outcome(scene, grid, false, UINT64_MAX).octree;
+    const std::string dark = outcome(scene, grid, UINT64_MAX).octree;
     for (std::uint64_t kernel = 4; kernel < 16; kernel += 2) // those that cover bricks, and number them
     {
-        const Outcome repeated = outcome(scene, grid, true, kernel);
-        EXPECT_EQ(repeated.octree, dark) << "kernel " << kernel << ", by bricks";
+        const Outcome repeated = outcome(scene, grid, kernel);
+        EXPECT_EQ(repeated.octree, dark) << "kernel " << kernel;
         EXPECT_EQ(repeated.failures, 1U);
     }
 }

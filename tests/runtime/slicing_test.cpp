@@ -81,7 +81,7 @@ TEST(Slicing, OneWorkgroupASubmissionGivesTheSameBytes)
     const Scene scene = test::materialsScene(10.0F);
     for (const Coverage coverage : {Coverage::Thin, Coverage::Conservative})
     {
-        const BuildOptions options{coverage, true, VoxelizeCapacities{1 << 14, 1 << 10, 1 << 12}};
+        const BuildOptions options{coverage, true, VoxelizeCapacities{1 << 10, 1 << 8, 1 << 10, 1 << 12, 1 << 10}};
         const Made expected = make(kWhole, scene, 5, options);
         const Made sliced = make({.most_units = 1}, scene, 5, options);
         EXPECT_EQ(sliced.sha, expected.sha);
@@ -139,7 +139,7 @@ TEST(Slicing, AWarmDeviceMakesTheSameBytesEveryTime)
 TEST(Slicing, EveryPassIsReportedHoweverItWasSplit)
 {
     const Scene scene = test::materialsScene(10.0F);
-    const BuildOptions options{Coverage::Thin, true, VoxelizeCapacities{1 << 14, 1 << 10, 1 << 12}};
+    const BuildOptions options{Coverage::Thin, true, VoxelizeCapacities{1 << 10, 1 << 8, 1 << 10, 1 << 12, 1 << 10}};
     const Made expected = make(kWhole, scene, 5, options);
     const Made sliced = make({.most_units = 3}, scene, 5, options);
     for (const auto& [name, times] : expected.pass_counts)

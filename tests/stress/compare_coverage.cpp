@@ -202,9 +202,11 @@ VoxelizeCapacities roomFor(const Batch& batch, const ExpectedVoxels& expected)
 {
     VoxelizeCapacities capacities;
     const std::uint64_t entries = std::min<std::uint64_t>(expected.codes.size() * 2, std::uint64_t{1} << 27);
-    capacities.bricks = std::bit_ceil(std::max<std::uint64_t>(entries, 64));
-    capacities.big_triangles = batch.triangles.size();
-    capacities.row_blocks = std::uint64_t{1} << 14;
+    capacities.table = std::bit_ceil(std::max<std::uint64_t>(entries, 64));
+    capacities.bricks = capacities.table / 2;
+    capacities.setups = batch.triangles.size();
+    capacities.items = batch.triangles.size() + expected.codes.size();
+    capacities.large = batch.triangles.size();
     return capacities;
 }
 

@@ -93,7 +93,7 @@ Batch makeBatch(std::uint64_t seed, Shape shape, std::uint64_t number, std::size
         break;
     case Shape::Huge:
         batch.depth = number % 4 == 1 ? pickDepth(maker, 7, kDepthMax) : pickDepth(maker, 1, 6);
-        if (number % 32 == 31) // many row blocks
+        if (number % 32 == 31) // many blocks
         {
             batch.depth = pickDepth(maker, 8, 10);
             batch.triangles.push_back(maker.huge(1 << batch.depth, false));

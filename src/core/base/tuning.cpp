@@ -33,7 +33,7 @@ constexpr TuningValue kLoads[] = {{"auto", static_cast<std::uint32_t>(vk::LoadFo
 constexpr std::array<TuningRow, 7> kTable = {{
     {Tunable::NodeLanes, "node-lanes", "threads that share a node", 1, 4, kNodeLanes},
     {Tunable::BlockLanes, "block-lanes", "threads that share a block of a large triangle", 1, 16, kBlockLanes},
-    {Tunable::MixedSums, "mixed-sums", "sums of voxels with several fragments alone", 1, 0, kSwitches},
+    {Tunable::MixedSums, "mixed-sums", "sums of voxels with several fragments alone", 1, 1, kSwitches},
     {Tunable::PathForm, "path-form", "paths in stages, or whole in one kernel", 0, 1, kPathForms},
     {Tunable::BeamLanes, "beam-lanes", "threads that share a beam", 1, 4, kBeamLanes},
     {Tunable::SubgroupSize, vk::kSubgroupSizeName, "threads of a subgroup", 0, 0, kSubgroupSizes},

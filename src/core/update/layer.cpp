@@ -42,7 +42,7 @@ LayerCapacities LayerCapacities::estimate(const GpuScene& scene, const Grid& gri
     result.voxels = result.leaves * kVoxelsOfLeaf;
     result.voxelize.bricks = count(likely.bricks * 1.5);
     result.voxelize.table = std::bit_ceil(2 * result.voxelize.bricks);
-    result.voxelize.setups = std::min(count(likely.setups), scene.triangle_count);
+    result.voxelize.setups = count(likely.setups);
     result.voxelize.items = count(likely.items);
     result.voxelize.large = count(likely.large);
     return result;

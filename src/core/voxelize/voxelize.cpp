@@ -188,7 +188,7 @@ VoxelizeCapacities VoxelizeCapacities::estimate(const GpuScene& scene, const Gri
     VoxelizeCapacities result;
     result.bricks = clampedCount(likely.bricks, kCountMin, kBricksGuessMax);
     result.table = std::bit_ceil(2 * result.bricks); // with the nodes above, no more than two thirds full
-    result.setups = std::min(clampedCount(likely.setups * 1.05, kItemsMin, kItemsGuessMax), scene.triangle_count);
+    result.setups = clampedCount(likely.setups * 1.05, kCountMin, kItemsGuessMax);
     result.items = clampedCount(likely.items * 1.05, kItemsMin, kItemsGuessMax);
     result.large = clampedCount(likely.large, kCountMin, kBricksGuessMax);
     return result;

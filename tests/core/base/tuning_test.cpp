@@ -59,13 +59,12 @@ TEST(Tuning, WordsStandForTheirEnumerators)
 TEST(Tuning, TextIsReadOrRefused)
 {
     EXPECT_TRUE(parseTuning("--tuning", "").empty());
-    EXPECT_EQ(tuningText(parseTuning("--tuning", "path-form=stages,row-columns=64")),
-              "row-columns=64,path-form=stages");
+    EXPECT_EQ(tuningText(parseTuning("--tuning", "path-form=stages,block-lanes=8")), "block-lanes=8,path-form=stages");
     EXPECT_NE(tuningRefusal("rows=64").find("--tuning rows=64: expected NAME=VALUE, with one of node-lanes"),
               std::string::npos);
-    EXPECT_NE(tuningRefusal("row-columns").find("expected NAME=VALUE"), std::string::npos);
-    EXPECT_NE(tuningRefusal("row-columns=65").find("expected one of 16, 32"), std::string::npos);
-    EXPECT_NE(tuningRefusal("row-columns=").find("expected one of"), std::string::npos);
+    EXPECT_NE(tuningRefusal("block-lanes").find("expected NAME=VALUE"), std::string::npos);
+    EXPECT_NE(tuningRefusal("block-lanes=65").find("expected one of 1, 2"), std::string::npos);
+    EXPECT_NE(tuningRefusal("block-lanes=").find("expected one of"), std::string::npos);
     EXPECT_NE(tuningRefusal("path-form=stages,path-form=kernel").find("path-form was given before"), std::string::npos);
     EXPECT_NE(tuningRefusal("path-form=stages,").find("expected NAME=VALUE"), std::string::npos);
     EXPECT_NE(tuningRefusal(",path-form=stages").find("expected NAME=VALUE"), std::string::npos);

@@ -45,19 +45,19 @@ TEST(DynamicObject, PlacesAndVoxelizesInOneCommandBuffer)
     const Pose& pose = made.second;
     const GpuScene posed = uploadScene(device(), posedScene(scene, pose), true);
     MovedScene object(device(), scene);
-    const VoxelizeCapacities capacities{1 << 15, 1 << 12, 1 << 16};
+    const VoxelizeCapacities capacities = VoxelizeCapacities::estimate(posed, kGrid, Coverage::Thin);
     const auto cover =
         [&](vk::FrameGraph& graph, const PosedGpuScene& placed, VoxelizeBuffers& voxelize, OctreeBuildBuffers& work)
     {
-        voxelizeCoverage(graph, {placed, kGrid, Coverage::Thin, voxelize});
+        voxelizeCoverage(graph, {placed, kGrid, voxelize});
         listNodes(graph, kGrid, voxelize, work);
     };
-    std::vector<gpu::BrickCounters> counters;
+    std::vector<gpu::BinCounters> counters;
     std::string dump;
     for (const bool moves : {false, true})
     {
-        VoxelizeBuffers voxelize(device().device(), capacities, posed);
-        OctreeBuildBuffers work(device().device(), capacities.bricks);
+        VoxelizeBuffers voxelize(device().device(), capacities, posed, {});
+        OctreeBuildBuffers work(device().device(), capacities.table, capacities.bricks);
         device().run(
             [&](vk::FrameGraph& graph)
             {
@@ -79,10 +79,10 @@ TEST(DynamicObject, PlacesAndVoxelizesInOneCommandBuffer)
     }
     EXPECT_GT(counters[0].voxel_count, 5000U);
     EXPECT_EQ(counters[1].voxel_count, counters[0].voxel_count);
-    EXPECT_EQ(counters[1].node_count, counters[0].node_count);
+    EXPECT_EQ(counters[1].leaf_count, counters[0].leaf_count);
     // A barrier from kernels to kernels stands between the last deformation and the first triangle.
     const std::size_t deformed = dump.rfind("pass deform/vertices");
-    const std::size_t walked = dump.find("pass voxelize/triangles");
+    const std::size_t walked = dump.find("pass voxelize/bin");
     ASSERT_LT(deformed, walked);
     const std::string between = dump.substr(deformed, walked - deformed);
     EXPECT_TRUE(std::regex_search(between, std::regex("\\nbarrier compute(\\|transfer)? -> compute\\n"))) << dump;
@@ -94,17 +94,17 @@ TEST(DynamicObject, PassesThatWalkItWaitForItsDraws)
     const Scene scene = test::boxScene(glm::vec3(-1.0F), glm::vec3(1.0F));
     MovedScene object(device(), scene);
     std::string dump;
-    VoxelizeBuffers voxelize(device().device(), {1 << 12, 1 << 10, 1 << 12}, object.uploaded());
+    VoxelizeBuffers voxelize(device().device(), {1 << 10, 1 << 8, 1 << 8, 1 << 12, 1 << 8}, object.uploaded(), {});
     device().run(
         [&](vk::FrameGraph& graph)
         {
             setPose(graph, std::vector{glm::mat4(1.0F)}, object.buffers());
-            voxelizeCoverage(graph, {{object.uploaded(), object.buffers()}, kGrid, Coverage::Thin, voxelize});
+            voxelizeCoverage(graph, {{object.uploaded(), object.buffers()}, kGrid, voxelize});
             dump = graph.dump();
         });
     const std::size_t updated = dump.find("pass update mover/draws");
     const std::size_t barrier = dump.find("barrier transfer -> compute");
-    const std::size_t walked = dump.find("pass voxelize/triangles");
+    const std::size_t walked = dump.find("pass voxelize/bin");
     EXPECT_LT(updated, barrier);
     EXPECT_LT(barrier, walked);
     EXPECT_NE(dump.find("reads mover/draws", walked), std::string::npos) << dump;

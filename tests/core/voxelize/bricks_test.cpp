@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Voxelization by bricks gives the bytes of that by triangles.
+// Forms of voxelization give the same bytes, whatever the triangles.
+#include "oracle/voxelizer.h"
 #include "runtime/octree_sha256.h"
 #include "runtime/trees.h"
 #include "support/engine_device.h"
@@ -8,12 +9,9 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cstdint>
-#include <map>
 #include <random>
 #include <string>
-#include <string_view>
 #include <vector>
 
 namespace zvo
@@ -21,48 +19,35 @@ namespace zvo
 namespace
 {
 
-// A device that voxelizes by bricks.
-vk::HeadlessDevice deviceOfBricks(std::map<std::string_view, std::uint32_t> tuning)
+// What GPUs choose.
+vk::HeadlessDevice& deviceLikeGpus()
 {
-    vk::HeadlessOptions options = test::deviceOptions();
-    options.tuning["voxels"] = 1;
-    for (const auto& [name, value] : tuning)
+    static vk::HeadlessDevice device = []
     {
-        options.tuning[std::string(name)] = value;
-    }
-    return {options, zvoKernels()};
+        vk::HeadlessOptions options = test::deviceOptions();
+        options.tuning = {{"block-lanes", 16},
+                          {"mixed-sums", 0},
+                          {std::string(vk::kLoadsName), static_cast<std::uint32_t>(vk::LoadForm::Addresses)}};
+        return vk::HeadlessDevice(options, zvoKernels());
+    }();
+    return device;
 }
 
-// What the software device chooses beside it, and what GPUs choose.
-std::vector<vk::HeadlessDevice*> devicesOfBricks()
-{
-    static vk::HeadlessDevice software = deviceOfBricks({});
-    static vk::HeadlessDevice like_gpus =
-        deviceOfBricks({{"band-lanes", 16}, {vk::kLoadsName, static_cast<std::uint32_t>(vk::LoadForm::Addresses)}});
-    return {&software, &like_gpus};
-}
-
-BuildResult build(vk::HeadlessDevice& device, const Scene& scene, const GridTile& tile)
+BuildResult build(vk::HeadlessDevice& device, const Scene& scene, const GridTile& tile, Coverage coverage)
 {
     const GpuScene uploaded = uploadScene(device, scene, true);
-    return buildOctree(device, uploaded, tile, {});
-}
-
-bool wentByBricks(const BuildResult& result)
-{
-    return std::ranges::any_of(result.passes, [](const vk::PassTime& pass) { return pass.name == "voxelize/cover"; });
+    return buildOctree(device, uploaded, tile, {coverage});
 }
 
 void expectSameBytes(const Scene& scene, const GridTile& tile)
 {
-    const BuildResult expected = build(test::device(), scene, tile);
-    ASSERT_GT(expected.octree.voxel_count, 0U);
-    for (vk::HeadlessDevice* const device : devicesOfBricks())
+    for (const Coverage coverage : {Coverage::Thin, Coverage::Conservative})
     {
-        const BuildResult result = build(*device, scene, tile);
-        EXPECT_TRUE(wentByBricks(result));
-        EXPECT_EQ(octreeSha256(*device, result.octree), octreeSha256(test::device(), expected.octree));
-        EXPECT_EQ(result.dropped, expected.dropped);
+        const BuildResult software = build(test::device(), scene, tile, coverage);
+        ASSERT_GT(software.octree.voxel_count, 0U);
+        const BuildResult like_gpus = build(deviceLikeGpus(), scene, tile, coverage);
+        EXPECT_EQ(octreeSha256(deviceLikeGpus(), like_gpus.octree), octreeSha256(test::device(), software.octree));
+        EXPECT_EQ(like_gpus.dropped, software.dropped);
     }
 }
 
@@ -87,12 +72,7 @@ Scene triangles(std::size_t count, float size, float extent)
 
 TEST(Bricks, OfMaterialsGiveTheSameBytes)
 {
-    Scene scene = test::materialsScene(64);
-    for (Material& material : scene.materials)
-    {
-        material.emission = glm::vec3(0);
-    }
-    expectSameBytes(scene, Grid{glm::vec3(0), 1.0F, 6});
+    expectSameBytes(test::materialsScene(64), Grid{glm::vec3(0), 1.0F, 6});
 }
 
 TEST(Bricks, OfTrianglesAndPointsGiveTheSameBytes)
@@ -102,19 +82,9 @@ TEST(Bricks, OfTrianglesAndPointsGiveTheSameBytes)
     expectSameBytes(scene, Grid{glm::vec3(0), 1.0F, 5});
 }
 
-TEST(Bricks, AreTakenAgainWithTheCapacitiesOfAnEarlierBuild)
-{
-    vk::HeadlessDevice& device = *devicesOfBricks().front();
-    const GpuScene uploaded = uploadScene(device, triangles(100, 9, 30), true);
-    const Grid grid = {glm::vec3(0), 1.0F, 5};
-    BuildOptions options;
-    options.capacities = buildOctree(device, uploaded, grid, {}).capacities;
-    EXPECT_TRUE(wentByBricks(buildOctree(device, uploaded, grid, options)));
-}
-
 TEST(Bricks, OfTrianglesOfAllSizesGiveTheSameBytes)
 {
-    for (const std::uint32_t depth : {3U, 4U, 7U})
+    for (const std::uint32_t depth : {1U, 3U, 4U, 7U})
     {
         SCOPED_TRACE(depth);
         const float extent = static_cast<float>(1U << depth);
@@ -132,7 +102,7 @@ TEST(Bricks, OfTrianglesInSeveralBlocksGiveTheSameBytes)
 TEST(Bricks, WithoutVoxelsMakeAnEmptyOctree)
 {
     const Scene scene = test::triangleSoup({{-2, 3, 10}, {-1, 4, 3}, {-9, 2, 29}});
-    EXPECT_EQ(build(*devicesOfBricks().front(), scene, Grid{glm::vec3(0), 1.0F, 5}).octree.node_count, 0U);
+    EXPECT_EQ(build(test::device(), scene, Grid{glm::vec3(0), 1.0F, 5}, Coverage::Thin).octree.node_count, 0U);
 }
 
 TEST(Bricks, OfManySmallTrianglesGiveTheSameBytes)
@@ -158,20 +128,21 @@ TEST(Bricks, WithVoxelsOfVeryManyFragmentsGiveTheSameBytes)
     const Scene scene = triangles(300000, 0.2F, 0.5F);
     const Grid grid = {glm::vec3(-4), 1.0F, 3};
     expectSameBytes(scene, grid);
-    EXPECT_GT(build(*devicesOfBricks().front(), scene, grid).retry_count, 0U); // values have lost bits
+    EXPECT_GT(build(test::device(), scene, grid, Coverage::Thin).retry_count, 0U); // values have lost bits
 }
 
-TEST(Bricks, DoNotTakeTrianglesBeyondTheirIntegers)
+TEST(Bricks, OfTrianglesThatReachFarBeyondTheGridGiveTheOraclesVoxels)
 {
-    const Scene scene = test::triangleSoup({{-1.0e6F, 3, 1}, {9.0e5F, 2, 5}, {7, 3, 12}});
-    const Grid grid = {glm::vec3(0), 1.0F, 4};
-    vk::HeadlessDevice& device = *devicesOfBricks().front();
-    for (const GridTile& tile : {GridTile(grid), GridTile(grid, 2, glm::uvec3(0, 0, 0))})
+    const Scene scene = test::triangleSoup(
+        {{-1.0e6F, 3, 1}, {9.0e5F, 2, 5}, {7, 3, 12}, {-9, -8.0e5F, 3}, {20, 1.5e6F, 9}, {40, 2, -7.0e5F}});
+    for (const std::uint32_t depth : {2U, 4U, 7U})
     {
-        const BuildResult result = build(device, scene, tile);
-        EXPECT_FALSE(wentByBricks(result));
-        EXPECT_EQ(octreeSha256(device, result.octree),
-                  octreeSha256(test::device(), build(test::device(), scene, tile).octree));
+        for (const Coverage coverage : {Coverage::Thin, Coverage::Conservative})
+        {
+            const Grid grid = {glm::vec3(0), 1.0F, depth};
+            const DeviceTree octree = build(test::device(), scene, grid, coverage).octree;
+            EXPECT_EQ(voxelCodes(test::device(), octree), oracle::voxelize(scene, grid, coverage).codes);
+        }
     }
 }
 

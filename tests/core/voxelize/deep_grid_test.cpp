@@ -195,7 +195,8 @@ TEST(DeepGrids, CrampedBuffersGiveTheSameOctree)
     const Grid grid = unitGrid(17);
     const GpuScene scene = uploadScene(device(), scatteredTriangles(17, 600), true);
     const BuildResult roomy = buildOctree(device(), scene, grid, {Coverage::Thin, true, {}});
-    const BuildResult cramped = buildOctree(device(), scene, grid, {Coverage::Thin, true, VoxelizeCapacities{1, 1, 1}});
+    const BuildResult cramped =
+        buildOctree(device(), scene, grid, {Coverage::Thin, true, VoxelizeCapacities{1, 1, 1, 1, 1}});
     EXPECT_GT(cramped.retry_count, 2U);
     EXPECT_EQ(octreeSha256(device(), cramped.octree), octreeSha256(device(), roomy.octree));
 }

@@ -123,7 +123,7 @@ void expectMixedSumsGive(const std::string& octree, const Scene& scene, const Gr
         options.sum_form = form;
         const BuildResult built = buildOctree(*builder, uploaded, grid, options);
         EXPECT_EQ(octreeSha256(*builder, built.octree), octree);
-        const auto isResolveMixed = [](const vk::PassTime& pass) { return pass.name == "voxelize/resolve_mixed"; };
+        const auto isResolveMixed = [](const vk::PassTime& pass) { return pass.name == "voxelize/resolve_leaves"; };
         EXPECT_EQ(std::ranges::any_of(built.passes, isResolveMixed), uploaded.emission_scale == 0.0F);
     }
 }
@@ -176,7 +176,7 @@ std::string dumpOfBuild(vk::HeadlessDevice& device, const Scene& scene, const Gr
 
 TEST(SumForms, OfMixedVoxelsAloneAreForTrianglesThatHaveVoxelsOfTheirOwn)
 {
-    const auto resolves = [](const std::string& dump) { return dump.find("voxelize/resolve_mixed") != dump.npos; };
+    const auto resolves = [](const std::string& dump) { return dump.find("voxelize/resolve_leaves") != dump.npos; };
     const Scene large = scatteredTriangles(64, 6.0F, 50.0F);
     const Scene dense = test::sphereScene(glm::vec3(32.0F), 30.0F, 160);
     const Grid grid = {glm::vec3(0.0F), 1.0F, 6};
@@ -214,9 +214,10 @@ TEST(SumForms, KernelsOfBuildsReachTheirBuffersThroughDescriptors)
         }
     }
     const std::string suffix = SumForm::on(bound.device()).int64 ? "_int64" : "";
-    EXPECT_EQ(names, (std::set<std::string>{"octree/average", "octree/collect", "octree/parents", "voxelize/resolve",
-                                            "voxelize/resolve_mixed", "voxelize/rows", "voxelize/rows" + suffix,
-                                            "voxelize/triangles", "voxelize/triangles" + suffix}));
+    EXPECT_EQ(names, (std::set<std::string>{"octree/average", "octree/parents", "voxelize/attributes" + suffix, "voxelize/bin",
+                                            "voxelize/bin_large", "voxelize/brick_leaves", "voxelize/collect_bricks",
+                                            "voxelize/cover", "voxelize/list_bricks", "voxelize/resolve",
+                                            "voxelize/resolve_leaves"}));
 }
 
 TEST_P(SumFormsBothCoverages, OfMixedVoxelsWithTooManyFragmentsLeaveTheSameBytes)

@@ -129,7 +129,8 @@ TEST_P(VoxelizeBothCoverages, TooSmallBuffersGrowUntilEverythingFits)
     const Scene scene = test::randomTriangles(3, 500, 128.0F);
     const GpuScene gpu_scene = uploadScene(device(), scene, true);
     const BuildResult roomy = buildOctree(device(), gpu_scene, grid, {GetParam(), true, {}});
-    const BuildResult cramped = buildOctree(device(), gpu_scene, grid, {GetParam(), true, VoxelizeCapacities{1, 1, 1}});
+    const BuildResult cramped =
+        buildOctree(device(), gpu_scene, grid, {GetParam(), true, VoxelizeCapacities{1, 1, 1, 1, 1}});
     EXPECT_GT(cramped.retry_count, 2U);
     EXPECT_EQ(octreeSha256(device(), cramped.octree), octreeSha256(device(), roomy.octree));
 }
@@ -184,41 +185,6 @@ TEST_P(VoxelizeMesh, EqualsTheOracle)
     }
     const Scene scene = loadGltf(*path);
     expectEqualsOracle(scene, Grid::around(scene.bounds(), GetParam().depth), GetParam().coverage);
-}
-
-// Large triangles of all material classes.
-TEST_P(VoxelizeBothCoverages, OctreesAreTheSameBytesForEveryShapeOfRowBlocks)
-{
-    const Scene scene = test::materialsScene(100.0F, 3);
-    const GpuScene uploaded = uploadScene(device(), scene, true);
-    const Grid grid = {glm::vec3(-10.0F, 5.0F, 0.25F), 90.0F / 512, 9};
-    std::string expected;
-    for (const RowShape shape : {RowShape{256, 1}, RowShape{32, 16}, RowShape{8, 32}, RowShape{1024, 2}})
-    {
-        SCOPED_TRACE(shape.block_columns);
-        BuildOptions options = {GetParam(), true, {}};
-        options.row_shape = shape;
-        const std::string hash = octreeSha256(device(), buildOctree(device(), uploaded, grid, options).octree);
-        expected = expected.empty() ? hash : expected;
-        EXPECT_EQ(hash, expected);
-    }
-}
-
-TEST(RowShapes, FollowTheDevice)
-{
-    const auto shapeOn = [](const char* type, const vk::TuningValues& tuning)
-    {
-        vk::HeadlessOptions options = test::deviceOptions();
-        options.overrides.type = type;
-        options.tuning = tuning;
-        vk::HeadlessDevice chosen(options, zvoKernels());
-        return RowShape::on(chosen.device());
-    };
-    EXPECT_EQ(shapeOn("cpu", {}), RowShape());
-    EXPECT_EQ(shapeOn("discrete", {}), (RowShape{.block_columns = 16, .strip_lanes = 16}));
-    EXPECT_EQ(shapeOn("discrete", {{"row-columns", 512}}), (RowShape{.block_columns = 512, .strip_lanes = 16}));
-    EXPECT_EQ(shapeOn("cpu", {{"row-columns", 64}}), (RowShape{.block_columns = 64, .strip_lanes = 4}))
-        << "fewer threads would list too many blocks each";
 }
 
 } // namespace
