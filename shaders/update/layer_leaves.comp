@@ -1,20 +1,19 @@
 #version 460
 // SPDX-License-Identifier: MIT
-// Lists the leaves of a layer's bricks and gives each room for its voxels' sums: a workgroup a brick, a thread a leaf.
+// Lists the leaves of a layer's bricks and gives each room for its voxels' sums: kBrickLanes threads a brick.
 // Their order is arbitrary, as sums do not depend on it. In the end it is known whether there was room for everything;
 // else the layer cannot be used, and its fragments are not shaded.
 #extension GL_GOOGLE_include_directive : require
 #include "update/update.h"
 
 GPU_ENTRY(LayerLeavesParams, UPDATE_LAYER_LEAVES_CONSTANTS);
-layout(local_size_x = kBrickLeaves) in;
+layout(local_size_x = kBricksGroup) in;
 
-#define SCAN_GROUP kBrickLeaves
 #include "lib/arrivals.glsl"
 #include "lib/bound.glsl"
 #include "lib/brick_keys.glsl"
 #include "lib/dispatch.glsl"
-#include "lib/scan.glsl"
+#include "voxelize/brick_lanes.glsl"
 #include "voxelize/window.glsl"
 
 #ifdef BOUND
@@ -24,47 +23,75 @@ TEXELS_2(0, masks);
 #define MASKS(I) uvec2_ConstPtr(uint64_t(params.masks)).data[I]
 #endif
 
-const int kLeavesShift = 16; // a brick has at most 4096 voxels: the sums of both counts fit one word
+const uint kGroupBricks = kBricksGroup / kBrickLanes;
 
-shared uvec2 s_first; // leaf and voxel of the brick
-shared uvec2 s_masks; // of its leaves
+shared uvec2 s_firsts[kGroupBricks]; // leaf and voxel of each brick
+shared uint s_masks_lo[kGroupBricks]; // of its leaves
+shared uint s_masks_hi[kGroupBricks];
 
-void listLeaves(uint brick)
+// brick: the thread's, of brick_count.
+void listLeaves(uint brick, uint brick_count)
 {
-    uint leaf = gl_LocalInvocationIndex;
-    uint entry = params.ranges.data[brick].entry;
-    uvec2 key = keyOf(params.bricks.data[entry]);
-    uvec2 mask = MASKS(brick * kBrickLeaves + leaf);
-    bool has_voxels = (mask.x | mask.y) != 0u;
-    uint low_voxels = bitCount(mask.x);
-    if (leaf == 0u)
-        s_masks = uvec2(0u);
+    bool exists = brick < brick_count;
+    uint slot = gl_LocalInvocationIndex / kBrickLanes;
+    uint leaf = laneOfBrick() * kLaneLeaves;
+    uint first_mask = min(brick, max(brick_count, 1u) - 1u) * kBrickLeaves + leaf;
+    uint counts = 0u; // voxels, and leaves
+    uint leaves = 0u;
+    for (uint i = 0u; i < kLaneLeaves; ++i)
+    {
+        uvec2 mask = MASKS(first_mask + i);
+        bool has_voxels = exists && (mask.x | mask.y) != 0u;
+        leaves |= has_voxels ? 1u << (leaf + i & 31u) : 0u;
+        counts += has_voxels ? bitCount(mask.x) + bitCount(mask.y) + (1u << kSecondCount) : 0u;
+    }
+    if (laneOfBrick() == 0u)
+    {
+        s_masks_lo[slot] = 0u;
+        s_masks_hi[slot] = 0u;
+    }
     uint total;
-    uint before = workgroupExclusiveAdd(low_voxels + bitCount(mask.y) + (has_voxels ? 1u << kLeavesShift : 0u), total);
-    if (leaf == 0u)
-        s_first = uvec2(atomicAdd(params.counters.data[0].leaf_count, total >> kLeavesShift),
-                        atomicAdd(params.counters.data[0].voxel_count, bitfieldExtract(total, 0, kLeavesShift)));
-    if (has_voxels && leaf < 32u)
-        atomicOr(s_masks.x, 1u << leaf);
-    if (has_voxels && leaf >= 32u)
-        atomicOr(s_masks.y, 1u << (leaf - 32u));
+    uint before = countsBefore(counts, total);
+    if (laneOfBrick() == 0u && exists)
+        s_firsts[slot] = uvec2(atomicAdd(params.counters.data[0].leaf_count, total >> kSecondCount),
+                               atomicAdd(params.counters.data[0].voxel_count, bitfieldExtract(total, 0, kSecondCount)));
+    if (leaf < 32u)
+        atomicOr(s_masks_lo[slot], leaves);
+    else
+        atomicOr(s_masks_hi[slot], leaves);
     memoryBarrierShared();
     barrier();
-    if (leaf == 0u)
+    if (!exists)
+        return;
+    uint entry = params.ranges.data[brick].entry;
+    uvec2 key = keyOf(params.bricks.data[entry]);
+    uvec2 first = s_firsts[slot];
+    if (laneOfBrick() == 0u)
     {
-        uint first = params.brick_capacity + s_first.x;
-        params.nodes.data[brick] = Node(s_masks.x, first, s_masks.y, first + bitCount(s_masks.x));
+        uvec2 masks = uvec2(s_masks_lo[slot], s_masks_hi[slot]);
+        uint child = params.brick_capacity + first.x;
+        params.nodes.data[brick] = Node(masks.x, child, masks.y, child + bitCount(masks.x));
         if (kWideKeys)
             params.bricks.data[entry].mask_lo = brick;
         else
             params.bricks.data[entry].base = brick;
     }
-    uint number = s_first.x + (before >> kLeavesShift);
-    if (has_voxels && number < params.leaf_capacity)
+    uint number = first.x + (before >> kSecondCount);
+    uint voxel = first.y + bitfieldExtract(before, 0, kSecondCount);
+    for (uint i = 0u; i < kLaneLeaves; ++i)
     {
-        uint first = s_first.y + bitfieldExtract(before, 0, kLeavesShift);
-        params.keys.data[number] = gridDepth() > 2 ? childKey(key, leaf) : key;
-        params.nodes.data[params.brick_capacity + number] = Node(mask.x, first, mask.y, first + low_voxels);
+        uvec2 mask = MASKS(first_mask + i);
+        uint middle = voxel + bitCount(mask.x);
+        if ((mask.x | mask.y) != 0u)
+        {
+            if (number < params.leaf_capacity)
+            {
+                params.keys.data[number] = gridDepth() > 2 ? childKey(key, leaf + i) : key;
+                params.nodes.data[params.brick_capacity + number] = Node(mask.x, voxel, mask.y, middle);
+            }
+            ++number;
+        }
+        voxel = middle + bitCount(mask.y);
     }
 }
 
@@ -86,13 +113,12 @@ void checkLayer()
 void main()
 {
     uint brick_count = params.bins.data[0].listed_count;
-    uint group_count = max(brick_count, 1u);
+    uint group_count = max((brick_count + kGroupBricks - 1u) / kGroupBricks, 1u);
     if (workgroupIndex() >= group_count)
         return;
-    if (workgroupIndex() < brick_count)
-        listLeaves(workgroupIndex());
+    listLeaves(threadIndex() / kBrickLanes, brick_count);
     uint here = arrivingThreads();
     uint before = subgroupElect() ? atomicAdd(params.counters.data[0].arrived, here) : 0u;
-    if (areLastThreads(before, here, group_count * kBrickLeaves) && subgroupElect())
+    if (areLastThreads(before, here, group_count * kBricksGroup) && subgroupElect())
         checkLayer();
 }

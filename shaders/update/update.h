@@ -135,7 +135,7 @@ struct OverlayState
 };
 GPU_BUFFER(OverlayState, 8);
 
-struct LayerLeavesParams // push constants of update/layer_leaves: a workgroup a brick, a thread a leaf
+struct LayerLeavesParams // push constants of update/layer_leaves: kBrickLanes threads a brick
 {
     GPU_PTR(BrickEntry) bricks;       // get the numbers of the bricks' nodes
     GPU_CONST_PTR(BrickRange) ranges; // [brick_capacity]

@@ -39,7 +39,7 @@ void addEmission(uvec3 emission, uint voxel)
 {
     uvec2 word = params.emission_words.data[voxel >> 5];
     uint bit = 1u << (voxel & 31u);
-    if (any(notEqual(emission, uvec3(0u))) && (word.x & bit) != 0u)
+    if (emission != uvec3(0u) && (word.x & bit) != 0u)
     {
         uint rank = word.y + bitCount(word.x & (bit - 1u));
         atomicAdd(params.emission_sums.data[rank].red, emission.r >> params.sum_shift);
@@ -65,7 +65,7 @@ void main()
     uint leaf = kBrickLeaves; // none
     Node node;
     MixedVoxels mixed;
-    for (; hasVoxels(voxels);)
+    for (;;) // on software devices, a test in its head would cost the body once more
     {
         uvec3 voxel = takeVoxel(voxels);
         uint number = numberOf(voxel);
@@ -81,22 +81,28 @@ void main()
         uint place = childIndex(node, cell);
         uvec3 weights = weightsAt(setup, corner + ivec3(voxel));
         uvec4 color = fragmentColor(surface, weights);
-        if (kMaterialClass == kClassAlpha && !passesAlpha(surface, color.a, uvec3(corner) + voxel))
-            continue;
+        bool exists = kMaterialClass != kClassAlpha || passesAlpha(surface, color.a, uvec3(corner) + voxel);
+        uvec3 emission = uvec3(0u);
+        if (kEmits)
+            emission = fragmentEmission(surface, weights);
         if (kMode == kModeEmission)
         {
-            addEmission(fragmentEmission(surface, weights), place);
-            continue;
+            addEmission(exists ? emission : uvec3(0u), place);
         }
-        if (kEmits && any(notEqual(fragmentEmission(surface, weights), uvec3(0u))))
-            atomicOr(params.emission_words.data[place >> 5].x, 1u << (place & 31u));
-        VoxelSums sums = sumsOf(color.rgb, fragmentNormal(surface, weights));
-        if (!kMixed)
-            addToSums(place, sums);
-        else if (isMixed(mixed, cell))
-            addToSums(sumsIndex(mixed, cell), sums);
-        else
-            STORE_MEAN(place, sums, 0u);
+        else if (exists)
+        {
+            if (kEmits && emission != uvec3(0u))
+                atomicOr(params.emission_words.data[place >> 5].x, 1u << (place & 31u));
+            VoxelSums sums = sumsOf(color.rgb, fragmentNormal(surface, weights));
+            if (!kMixed)
+                addToSums(place, sums);
+            else if (isMixed(mixed, cell))
+                addToSums(sumsIndex(mixed, cell), sums);
+            else
+                STORE_MEAN(place, sums, 0u);
+        }
+        if (!hasVoxels(voxels))
+            break;
     }
 }
 

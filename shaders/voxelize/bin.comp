@@ -176,27 +176,20 @@ uint bricksOf(RasterTriangle t)
     return 255u & (two.x ? ~0u : 0x55u) & (two.y ? ~0u : 0x33u) & (two.z ? ~0u : 0x0fu);
 }
 
-// Makes room for `count` elements of each thread of a subgroup, by one atomic. Call in uniform control flow.
-#define TAKE_PLACES(PLACE, COUNT, COUNTER, CARRY)                                                                          {                                                                                                                      }
-
-uint setupPlace(bool wanted)
+// The places of the thread's setup, if wanted, and of the first of its items: two atomics for a subgroup.
+uvec2 takePlaces(bool wanted, uint item_count)
 {
-    uvec4 wanting = subgroupBallot(wanted);
-    uint first = 0u;
-    if (subgroupElect() && wanting != uvec4(0u))
-        first = atomicAdd(params.counters.data[0].setup_count, subgroupBallotBitCount(wanting));
-    return subgroupBroadcastFirst(first) + subgroupBallotExclusiveBitCount(wanting);
-}
-
-// The place of the first of `count` items of the thread: one atomic for a subgroup.
-uint itemPlace(uint count)
-{
-    uint total = subgroupAdd(count);
-    uint before = subgroupExclusiveAdd(count);
-    uint first = 0u;
+    const int second = 16;
+    uint counts = item_count | (wanted ? 1u << second : 0u);
+    uint total = subgroupAdd(counts);
+    uint before = subgroupExclusiveAdd(counts);
+    uvec2 first = uvec2(0u);
     if (subgroupElect() && total != 0u)
-        first = addItems(total);
-    return subgroupBroadcastFirst(first) + before;
+    {
+        first.x = atomicAdd(params.counters.data[0].setup_count, total >> second);
+        first.y = addItems(bitfieldExtract(total, 0, second));
+    }
+    return subgroupBroadcastFirst(first) + uvec2(before >> second, bitfieldExtract(before, 0, second));
 }
 
 void takeTriangle(ChunkTriangle taken)
@@ -214,8 +207,9 @@ void takeTriangle(ChunkTriangle taken)
     uint bricks = kThin ? bricksOf(found) : (small ? bricksOf(t) : 0u);
     bool large = kept && !small;
     bool wanted = large || (kKeepsSetups && bricks != 0u);
-    uint setup = setupPlace(wanted);
-    uint place = itemPlace(bitCount(bricks));
+    uvec2 places = takePlaces(wanted, bitCount(bricks));
+    uint setup = places.x;
+    uint place = places.y;
     if (wanted && setup < params.setup_capacity)
     {
         float double_area = float(abs(permuted(snapped.normal, axis).z)); // in the projection along the major axis
@@ -224,7 +218,9 @@ void takeTriangle(ChunkTriangle taken)
     }
     if (large)
         listLarge(snapped, axis, setup);
-    for (; bricks != 0u; bricks &= bricks - 1u)
+    if (bricks == 0u)
+        return;
+    for (;;) // on software devices, a test in its head would cost the body once more
     {
         uint brick = uint(findLSB(bricks));
         ivec3 cell = (t.low >> int(kBrickLog2)) + ivec3(brick & 1u, (brick >> 1) & 1u, brick >> 2);
@@ -232,6 +228,9 @@ void takeTriangle(ChunkTriangle taken)
         uint entry = brickEntry(brickKey(uvec3(cell), brickLevel()));
         uint info = kThin ? (found.voxels.info & ~kColumnsMask) | columnsIn(found, brick) : kWholeBox;
         writeItem(place++, BrickItem(setup, entry), ItemVoxels(info, found.voxels.layers.x, found.voxels.layers.y));
+        bricks &= bricks - 1u;
+        if (bricks == 0u)
+            break;
     }
 }
 

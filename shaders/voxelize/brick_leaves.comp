@@ -1,18 +1,17 @@
 #version 460
 // SPDX-License-Identifier: MIT
-// The nodes of the leaves of bricks, and their mixed voxels: a workgroup a brick, a thread a leaf.
+// The nodes of the leaves of bricks, and their mixed voxels: kBrickLanes threads a brick.
 #extension GL_GOOGLE_include_directive : require
 #include "voxelize/bricks.h"
 
 GPU_ENTRY(BrickLeavesParams, VOXELIZE_BRICK_LEAVES_CONSTANTS);
-layout(local_size_x = kBrickLeaves) in;
+layout(local_size_x = kBricksGroup) in;
 
-#define SCAN_GROUP kBrickLeaves
 #include "lib/brick_keys.glsl"
 #include "lib/bound.glsl"
 #include "lib/dispatch.glsl"
 #include "lib/node.glsl"
-#include "lib/scan.glsl"
+#include "voxelize/brick_lanes.glsl"
 
 #ifdef BOUND
 TEXELS_2(0, masks);
@@ -21,31 +20,47 @@ TEXELS_2(0, masks);
 #define MASKS(I) uvec2_ConstPtr(uint64_t(params.masks)).data[I]
 #endif
 
-const int kMixedShift = 16; // a brick has at most 4096 voxels: the sums of both counts fit one word
+uvec2 mixedOf(uint leaf_mask)
+{
+    return kMixed ? MASKS(leaf_mask + kBrickLeaves) : uvec2(0u);
+}
 
 void main()
 {
-    if (workgroupIndex() >= params.brick_count)
-        return;
-    uint leaf = gl_LocalInvocationIndex;
-    uint brick = params.order.data[workgroupIndex()];
-    BrickRange range = params.ranges.data[brick];
-    uint first_mask = brick * ((kMixed ? 2u : 1u) * kBrickLeaves);
-    uvec2 mask = MASKS(first_mask + leaf);
-    uvec2 mixed = kMixed ? MASKS(first_mask + kBrickLeaves + leaf) : uvec2(0u);
-    uint low_voxels = bitCount(mask.x);
-    uint total;
-    uint mixed_voxels = bitCount(mixed.x) + bitCount(mixed.y);
-    uint before = workgroupExclusiveAdd(low_voxels + bitCount(mask.y) + (mixed_voxels << kMixedShift), total);
-    uint first = range.first_voxel + bitfieldExtract(before, 0, kMixedShift);
-    if ((mask.x | mask.y) != 0u)
+    uint number = threadIndex() / kBrickLanes;
+    uint brick = params.order.data[min(number, params.brick_count - 1u)];
+    uint leaf = laneOfBrick() * kLaneLeaves;
+    uint first_mask = brick * ((kMixed ? 2u : 1u) * kBrickLeaves) + leaf;
+    uint counts = 0u; // voxels, and mixed ones
+    for (uint i = 0u; i < kLaneLeaves; ++i)
     {
-        uint node = 0u; // of a grid of up to 4^3: a leaf without nodes above it
-        if (params.first_leaf != 0u)
-            node = childIndex(params.nodes.data[nodeOf(params.bricks.data[range.entry])], leaf);
-        params.nodes.data[node] = Node(mask.x, first, mask.y, first + low_voxels);
-        if (kMixed)
-            params.mixed.data[node - params.first_leaf] =
-                MixedVoxels(mixed.x, mixed.y, range.first_sums + (before >> kMixedShift), 0u);
+        uvec2 mask = MASKS(first_mask + i);
+        uvec2 mixed = mixedOf(first_mask + i);
+        counts += bitCount(mask.x) + bitCount(mask.y) + ((bitCount(mixed.x) + bitCount(mixed.y)) << kSecondCount);
+    }
+    uint total;
+    uint before = countsBefore(counts, total);
+    if (number >= params.brick_count)
+        return;
+    BrickRange range = params.ranges.data[brick];
+    uint voxel = range.first_voxel + bitfieldExtract(before, 0, kSecondCount);
+    uint sums = range.first_sums + (before >> kSecondCount);
+    Node parent = Node(0u, 0u, 0u, 0u); // a grid of up to 4^3 is a leaf without nodes above it
+    if (params.first_leaf != 0u)
+        parent = params.nodes.data[nodeOf(params.bricks.data[range.entry])];
+    for (uint i = 0u; i < kLaneLeaves; ++i)
+    {
+        uvec2 mask = MASKS(first_mask + i);
+        uvec2 mixed = mixedOf(first_mask + i);
+        uint middle = voxel + bitCount(mask.x);
+        if ((mask.x | mask.y) != 0u)
+        {
+            uint node = childIndex(parent, leaf + i);
+            params.nodes.data[node] = Node(mask.x, voxel, mask.y, middle);
+            if (kMixed)
+                params.mixed.data[node - params.first_leaf] = MixedVoxels(mixed.x, mixed.y, sums, 0u);
+        }
+        voxel = middle + bitCount(mask.y);
+        sums += bitCount(mixed.x) + bitCount(mixed.y);
     }
 }

@@ -27,7 +27,8 @@ const uint kLargeGroup = 64u;  // threads of a workgroup of voxelize/bin_large
 const uint kListGroup = 64u;   // threads of a workgroup of voxelize/list_bricks
 const uint kListItems = 16u;   // table entries that a thread of it reads
 const uint kItemsGroup = 64u;  // threads of a workgroup where one thread takes one item
-const uint kBricksGroup = 64u; // threads of a workgroup where one thread takes one brick
+const uint kBricksGroup = 64u; // threads of a workgroup where threads take bricks
+const uint kBrickLanes = 8u;   // threads that share a brick, where several do
 
 const int kBrickLatticeLog2 = kVoxelLatticeLog2 + int(kBrickLog2); // lattice units of a brick's edge
 
@@ -124,7 +125,7 @@ struct BinCounters
     DispatchArgs small;   // of voxelize/cover for items of small triangles
     DispatchArgs cover;   // of large ones
     DispatchArgs collect; // of voxelize/collect_bricks
-    DispatchArgs leaves;  // a workgroup for each listed brick, and one at least
+    DispatchArgs leaves;  // of kBrickLanes threads for each listed brick, and one workgroup at least
 };
 GPU_BUFFER(BinCounters, 4);
 
@@ -252,7 +253,7 @@ struct BrickBasesParams // push constants of voxelize/brick_bases
 };
 GPU_KERNEL(voxelize, brick_bases, BrickBases, BrickBasesParams, GPU_NO_CONSTANTS)
 
-struct BrickLeavesParams // push constants of voxelize/brick_leaves: a thread a leaf, a workgroup a brick
+struct BrickLeavesParams // push constants of voxelize/brick_leaves: kBrickLanes threads a brick
 {
     GPU_CONST_PTR(BrickEntry) bricks;
     GPU_CONST_PTR(BrickRange) ranges;

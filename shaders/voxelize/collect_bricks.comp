@@ -22,8 +22,6 @@ TEXELS_4(0, masks);
 #define MASK_WORDS(I) uvec4_ConstPtr(uint64_t(params.masks)).data[I]
 #endif
 
-const uint kBrickLanes = 8u; // threads that count a brick together
-
 shared uint s_leaves_lo[kBricksGroup];
 shared uint s_leaves_hi[kBricksGroup];
 shared uint s_voxels[kBricksGroup];

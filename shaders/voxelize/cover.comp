@@ -51,6 +51,47 @@ void setVoxels(uint word, uint bits)
         atomicOr(MASK_WORD(word + kLeafMaskWords), again);
 }
 
+// Sets the voxels of an item. tests: alpha decides which exist.
+void setItem(BrickItem item, BrickEntry entry, Voxels voxels, bool tests)
+{
+    if (!hasVoxels(voxels))
+        return;
+    ivec3 brick = brickCorner(entry);
+    TriangleSetup setup;
+    Surface surface;
+    if (tests)
+    {
+        setup = loadSetup(item.triangle);
+        surface = surfaceOf(item.triangle, setup);
+    }
+    // Voxels of an item mostly share a word with the one before: their bits take one atomic.
+    uint first_word = entry.mask_lo * kMaskWords;
+    uint word = 0u;
+    uint bits = 0u;
+    for (;;) // on software devices, a test in its head would cost the body once more
+    {
+        uvec3 voxel = takeVoxel(voxels);
+        uint number = numberOf(voxel);
+        bool exists = true;
+        if (tests)
+            exists = passesAlpha(surface, fragmentColor(surface, weightsAt(setup, brick + ivec3(voxel))).a,
+                                 uvec3(brick) + voxel);
+        if (number >> 5 != word && bits != 0u)
+        {
+            setVoxels(first_word + word, bits);
+            bits = 0u;
+        }
+        word = number >> 5;
+        bits |= exists ? 1u << (number & 31u) : 0u;
+        if (!hasVoxels(voxels))
+        {
+            if (bits != 0u)
+                setVoxels(first_word + word, bits);
+            break;
+        }
+    }
+}
+
 void main()
 {
     uint small_items = params.counters.data[0].small_items;
@@ -60,39 +101,18 @@ void main()
         return;
     BrickItem item = loadItem(i);
     BrickEntry entry = loadBrick(item.entry);
-    ivec3 brick = brickCorner(entry);
     Voxels voxels = knownVoxels(i);
-    TriangleSetup setup;
-    Surface surface;
-    if (!kSmall || kMaterialClass == kClassAlpha)
-        setup = loadSetup(item.triangle);
-    if (kMaterialClass == kClassAlpha)
-        surface = surfaceOf(item.triangle, setup);
     if (!kSmall)
     {
-        voxels = coverColumns(tileTriangle(voxels.info, setup, brick));
+        voxels = coverColumns(tileTriangle(voxels.info, loadSetup(item.triangle), brickCorner(entry)));
         keepVoxels(i, voxels);
     }
-    // Voxels of an item mostly share a word with the one before: their bits take one atomic.
-    uint first_word = entry.mask_lo * kMaskWords;
-    uint word = 0u;
-    uint bits = 0u;
-    for (; hasVoxels(voxels);)
-    {
-        uvec3 voxel = takeVoxel(voxels);
-        uint number = numberOf(voxel);
-        if (number >> 5 != word && bits != 0u)
-        {
-            setVoxels(first_word + word, bits);
-            bits = 0u;
-        }
-        word = number >> 5;
-        bool exists = true;
-        if (kMaterialClass == kClassAlpha)
-            exists = passesAlpha(surface, fragmentColor(surface, weightsAt(setup, brick + ivec3(voxel))).a,
-                                 uvec3(brick) + voxel);
-        bits |= exists ? 1u << (number & 31u) : 0u;
-    }
-    if (bits != 0u)
-        setVoxels(first_word + word, bits);
+    bool tests = false;
+    if (kMaterialClass == kClassAlpha)
+        tests = loadMaterial(loadSetup(item.triangle).material).alpha_mode != kAlphaOpaque;
+    Voxels none = voxels;
+    none.info &= ~kColumnsMask;
+    setItem(item, entry, tests ? none : voxels, false);
+    if (kMaterialClass == kClassAlpha)
+        setItem(item, entry, tests ? voxels : none, true);
 }

@@ -64,7 +64,8 @@ Voxels coverThin(RasterTriangle t)
     uint width = uint(t.high.x - t.low.x + 1);
     uint end = columnCount(t);
     uint run = areWalked(t) ? end : 1u;
-    for (uint column = 0u; column < end;)
+    uint column = 0u;
+    for (;;) // on software devices, a test in its head would cost the body once more
     {
         uint run_end = column + run;
         uint y = divideSmall(column, width);
@@ -85,6 +86,8 @@ Voxels coverThin(RasterTriangle t)
                 row_end += width;
             }
         }
+        if (column >= end)
+            break;
     }
     return voxels;
 }

@@ -97,14 +97,14 @@ void numberLeaves(vk::FrameGraph& graph, VoxelizeBuffers& voxelize, OctreeBuildB
                                                                  .brick_count = brick_count});
     }
     vk::Pass pass = graph.addPass(gpu::voxelize::BrickLeaves{.wide_keys = wide, .mixed = voxelize.form.mixed});
-    pass.dispatch(std::uint64_t{brick_count} * gpu::kBrickLeaves, {.bricks = pass.read(voxelize.table),
-                                                                   .ranges = pass.read(voxelize.ranges),
-                                                                   .order = pass.read(work.order),
-                                                                   .masks = pass.read(voxelize.masks),
-                                                                   .nodes = pass.readWrite(octree.nodes),
-                                                                   .mixed = pass.write(mixed),
-                                                                   .first_leaf = octree.levels.back().first_node,
-                                                                   .brick_count = brick_count});
+    pass.dispatch(std::uint64_t{brick_count} * gpu::kBrickLanes, {.bricks = pass.read(voxelize.table),
+                                                                  .ranges = pass.read(voxelize.ranges),
+                                                                  .order = pass.read(work.order),
+                                                                  .masks = pass.read(voxelize.masks),
+                                                                  .nodes = pass.readWrite(octree.nodes),
+                                                                  .mixed = pass.write(mixed),
+                                                                  .first_leaf = octree.levels.back().first_node,
+                                                                  .brick_count = brick_count});
 }
 
 std::uint64_t partialCount(std::uint64_t table_capacity)

@@ -132,7 +132,7 @@ void listLeaves(vk::FrameGraph& graph, const LayerJob& job)
     params.voxel_capacity = layer.sums.count() != 0 ? static_cast<std::uint32_t>(layer.sums.count()) : UINT32_MAX;
     params.report = job.report;
     pass.dispatchIndirect(voxelize.counters, &gpu::BinCounters::leaves, params,
-                          std::max<std::uint64_t>(voxelize.ranges.count(), 1));
+                          divideUp(voxelize.ranges.count() * gpu::kBrickLanes, gpu::kBricksGroup));
 }
 
 VoxelizeJob voxelizeJob(const LayerJob& job)

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: MIT
+// Threads that share a brick: each takes kLaneLeaves of its leaves, which follow each other. Barriers are expensive on
+// CPUs, and loads one after the other on GPUs.
+#ifndef ZVO_SHADERS_VOXELIZE_BRICK_LANES_GLSL
+#define ZVO_SHADERS_VOXELIZE_BRICK_LANES_GLSL
+
+#include "voxelize/bricks.h"
+
+const uint kLaneLeaves = kBrickLeaves / kBrickLanes;
+const int kSecondCount = 16; // a brick has at most 4096 voxels: two counts fit one word
+
+shared uint s_brick_counts[kBricksGroup];
+
+uint laneOfBrick()
+{
+    return gl_LocalInvocationIndex % kBrickLanes;
+}
+
+// The sum of counts over the threads of a brick before this one. total: over all of them. Call once, in uniform control
+// flow.
+uint countsBefore(uint counts, out uint total)
+{
+    s_brick_counts[gl_LocalInvocationIndex] = counts;
+    barrier();
+    uint first = gl_LocalInvocationIndex - laneOfBrick();
+    uint before = 0u;
+    total = 0u;
+    for (uint lane = 0u; lane < kBrickLanes; ++lane)
+    {
+        before = lane == laneOfBrick() ? total : before;
+        total += s_brick_counts[first + lane];
+    }
+    return before;
+}
+
+#endif
