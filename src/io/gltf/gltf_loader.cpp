@@ -123,8 +123,8 @@ private:
         std::vector<std::uint32_t> added;
         for (int i = 0; i < static_cast<int>(sources.size()); ++i)
         {
-            const bool has_triangles = sources[i].mode >= TINYGLTF_MODE_TRIANGLES;
-            const GltfMaterial material = has_triangles ? m_materials.get(sources[i].material) : GltfMaterial{};
+            const bool is_shown = sources[i].mode == TINYGLTF_MODE_POINTS || sources[i].mode >= TINYGLTF_MODE_TRIANGLES;
+            const GltfMaterial material = is_shown ? m_materials.get(sources[i].material) : GltfMaterial{};
             std::optional<Primitive> primitive = loadGltfPrimitive(m_document, mesh, i, material, m_warnings);
             if (primitive)
             {

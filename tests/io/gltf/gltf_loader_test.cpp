@@ -133,6 +133,20 @@ TEST(GltfLoader, PointsAreTheVerticesThatIndicesName)
     EXPECT_TRUE(scene.warnings.empty());
 }
 
+TEST(GltfLoader, PointsHaveTheirMaterials)
+{
+    GltfBuilder builder = triangleDocument();
+    builder.document["materials"] = {{{"name", "of triangles"}}, {{"name", "of points"}}};
+    set("/meshes/0/primitives/0/material", 0)(builder);
+    builder.addMeshNode({{"attributes", {{"POSITION", 0}}}, {"mode", kPoints}, {"material", 1}});
+    builder.addMeshNode({{"attributes", {{"POSITION", 0}}}, {"mode", kPoints}});
+    const Scene scene = builder.load();
+    ASSERT_EQ(scene.primitives.size(), 3U);
+    EXPECT_EQ(scene.materials.at(scene.primitives[1].material).name, "of points");
+    EXPECT_NE(scene.materials.at(scene.primitives[2].material).name, "of triangles");
+    EXPECT_EQ(sceneFault(fiveVertices(kPoints)), "");
+}
+
 TEST(GltfLoader, IndicesMayHaveEightSixteenOrThirtyTwoBits)
 {
     const Triangles wanted = {{2, 0, 1}, {0, 1, 2}};
