@@ -142,9 +142,8 @@ private:
         const bool has_normals = element.has(PlyNormal, 3);
         const bool has_colors = element.has(PlyColor, 3);
         const bool has_uvs = element.has(PlyUv, 2);
-        m_vertex_bytes = sizeof(glm::vec3) +
-                         sizeof(glm::uvec3) + // where it is a point (has_normals ? sizeof(glm::vec3) : 0) +
-                         (has_colors ? sizeof(glm::vec4) : 0) + (has_uvs ? sizeof(glm::vec2) : 0);
+        m_vertex_bytes = sizeof(glm::vec3) + sizeof(glm::uvec3) + (has_normals ? sizeof(glm::vec3) : 0) +
+                         (has_colors ? sizeof(glm::vec4) : 0) + (has_uvs ? sizeof(glm::vec2) : 0); // as a point
         const auto addVertex = [&]
         {
             m_bytes_left.take(m_vertex_bytes);
@@ -200,6 +199,10 @@ private:
         {
             m_corners.push_back(vertexIndex(index));
             m_corner_positions.push_back(m_vertices.positions[m_corners.back()]);
+        }
+        if (m_face_uvs && m_wedges.size() != 2 * count && !m_wedges.empty())
+        {
+            m_scene.warn("texture coordinates of faces left out that are not two for each corner");
         }
         Primitive& piece = is_split ? m_pieces[pictureIndex()] : m_vertices;
         for (std::size_t i = 0; is_split && i < count; ++i)

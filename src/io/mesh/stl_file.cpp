@@ -28,6 +28,8 @@ static_assert(std::endian::native == std::endian::little, "STL is little-endian 
 constexpr std::size_t kHeaderBytes = 80;
 constexpr std::size_t kFacetsOffset = kHeaderBytes + sizeof(std::uint32_t);
 constexpr std::size_t kFacetBytes = 50; // without the padding of Facet
+constexpr std::string_view kColorMark = "COLOR=";
+constexpr std::string_view kMaterialMark = "MATERIAL="; // behind it: diffuse, specular and ambient colour
 
 struct Facet
 {
@@ -53,18 +55,29 @@ std::uint32_t facetCount(std::span<const std::uint8_t> bytes)
     return count;
 }
 
-/// Adds the colours of facets. Materialise Magics: the head has a colour of all, behind "COLOR=", and facets without
-/// the highest bit have their own, red in the lowest bits. VisCAM and SolidView: facets with the highest bit have their
-/// own, red in the highest bits; the others are white.
-void addColors(std::span<const std::uint8_t> head, const std::vector<std::uint16_t>& facets, Primitive& primitive)
+/// What stands behind a mark in the head of a binary file: red, green, blue and alpha. Nothing without the mark.
+std::optional<glm::u8vec4> colorBehind(std::string_view mark, std::span<const std::uint8_t> bytes)
 {
-    constexpr std::string_view kColorMark = "COLOR=";
+    glm::u8vec4 color(0);
+    const std::size_t at = std::string_view(reinterpret_cast<const char*>(bytes.data()), kHeaderBytes).find(mark);
+    if (at > kHeaderBytes - mark.size() - sizeof(color))
+    {
+        return std::nullopt;
+    }
+    std::memcpy(&color, bytes.data() + at + mark.size(), sizeof(color));
+    return color;
+}
+
+/// Adds the colours of facets. of_head: behind "COLOR=". Materialise Magics: the head has a colour of all, and facets
+/// without the highest bit have their own, red in the lowest bits. VisCAM and SolidView: facets with the highest bit
+/// have their own, red in the highest bits; the others are white.
+void addColors(const std::optional<glm::u8vec4>& of_head, const std::vector<std::uint16_t>& facets,
+               Primitive& primitive)
+{
     constexpr std::uint32_t kHighest = 1U << 15U;
     constexpr std::uint32_t kChannelMax = 31;
-    const std::size_t mark = std::string_view(reinterpret_cast<const char*>(head.data()), head.size()).find(kColorMark);
-    const bool is_magics = mark <= kHeaderBytes - kColorMark.size() - 4;
-    const auto rgba = head.subspan(is_magics ? mark + kColorMark.size() : 0, 4);
-    const glm::dvec3 of_all = is_magics ? glm::dvec3(rgba[0], rgba[1], rgba[2]) / 255.0 : glm::dvec3(1.0);
+    const bool is_magics = of_head.has_value();
+    const glm::dvec3 of_all = is_magics ? glm::dvec3(*of_head) / 255.0 : glm::dvec3(1.0);
     const bool are_set =
         std::ranges::any_of(facets, [&](auto bits) { return is_magics ? bits != 0 : bits >= kHighest; });
     for (std::size_t i = 0; (are_set || is_magics) && i < facets.size(); ++i)
@@ -104,7 +117,7 @@ Primitive readBinary(const std::filesystem::path& path, std::span<const std::uin
         addVertices(primitive, facet.corners);
         bits.push_back(facet.bits);
     }
-    addColors(bytes.first(kHeaderBytes), bits, primitive);
+    addColors(colorBehind(kColorMark, bytes), bits, primitive);
     return primitive;
 }
 
@@ -212,7 +225,13 @@ Scene readStl(const std::filesystem::path& path, std::span<const std::uint8_t> b
 {
     const std::string_view content(reinterpret_cast<const char*>(bytes.data()), bytes.size());
     MeshScene scene(path, ImageDecoding::WhenLoaded);
-    scene.add(isTextStl(bytes) ? TextReader(path, content).read() : readBinary(path, bytes));
+    const bool is_text = isTextStl(bytes);
+    scene.add(is_text ? TextReader(path, content).read() : readBinary(path, bytes));
+    const auto material = is_text ? std::nullopt : colorBehind(kMaterialMark, bytes);
+    if (material && material != colorBehind(kColorMark, bytes))
+    {
+        scene.warn("the material in the head left out (MATERIAL=)");
+    }
     return scene.finish();
 }
 

@@ -289,6 +289,10 @@ TEST(MeshExporters, PlyTexturesAreThoseOfTheirComments)
     const std::string plain =
         std::string(kPlyVertices) + kPlyFaces + "end_header\n" + kPlyPoints + "3 0 1 2\n3 0 2 3\n";
     expectOneLine(load(one + plain).warnings, {"first one.png: there are no texture coordinates"});
+    expectOneLine(load(one + kPlyVertices + kPlyFaces + wedges + "end_header\n" + kPlyPoints +
+                       "3 0 1 2 4 0 0 1 0\n3 0 2 3 6 0 0 1 1 0 0.75\n")
+                      .warnings,
+                  {"texture coordinates of faces left out"});
     expectOneLine(load(std::string(kPlyHead) + "comment TextureFile gone.png\n" + kPlyVertices + kPlyFaces + wedges +
                        "end_header\n" + kPlyPoints + fmt::format(fmt::runtime(faces), "", ""))
                       .warnings,
@@ -367,7 +371,7 @@ TEST(MeshExporters, StlFacetsHaveColorsOfBothConventions)
     EXPECT_EQ(colorsOf("VisCAM", {kOwn | kHighestChannel, kOwn | kLowestChannel, kLowestChannel}),
               (Colors{red, blue, white}));
     EXPECT_EQ(colorsOf("no colours", {kHighestChannel, 0, 7}), Colors());
-    const std::string_view magics("COLOR=\0\xFF\0\xFF,MATERIAL=", 20);
+    const std::string_view magics("COLOR=\0\xFF\0\xFF,MATERIAL=\0\xFF\0\xFF", 24);
     EXPECT_EQ(colorsOf(magics, {kHighestChannel, kLowestChannel, kOwn, kOwn | kHighestChannel}),
               (Colors{blue, red, green, green}));
     EXPECT_EQ(colorsOf("Magics " + std::string(magics), {0, 0}), (Colors{green, green})) << "none has its own";
