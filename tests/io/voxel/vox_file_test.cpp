@@ -6,9 +6,9 @@
 #include "core/file/tree_check.h"
 #include "core/tree/tree_build.h"
 #include "support/errors.h"
-#include "support/mesh_files.h"
 #include "support/sweep.h"
 #include "support/tree_samples.h"
+#include "vox_chunks.h"
 #include "written_bytes.h"
 #include "zvo/error.h"
 
@@ -27,67 +27,7 @@ namespace zvo::test
 namespace
 {
 
-std::string number(std::int32_t value)
-{
-    std::string bytes;
-    appendBytes(bytes, value);
-    return bytes;
-}
-
-std::string text(const std::string& value)
-{
-    return number(static_cast<std::int32_t>(value.size())) + value;
-}
-
-std::string chunk(const std::string& id, const std::string& content, const std::string& children = "")
-{
-    return id + number(static_cast<std::int32_t>(content.size())) + number(static_cast<std::int32_t>(children.size())) +
-           content + children;
-}
-
-std::string voxFile(const std::string& chunks)
-{
-    return "VOX " + number(150) + chunk("MAIN", "", chunks);
-}
-
-std::string model(int x, int y, int z, const std::string& voxels)
-{
-    return chunk("SIZE", number(x) + number(y) + number(z)) +
-           chunk("XYZI", number(static_cast<std::int32_t>(voxels.size() / 4)) + voxels);
-}
-
-using Entries = std::vector<std::pair<std::string, std::string>>;
-
-std::string dictionary(const Entries& entries)
-{
-    std::string bytes = number(static_cast<std::int32_t>(entries.size()));
-    for (const auto& [key, value] : entries)
-    {
-        bytes += text(key) + text(value);
-    }
-    return bytes;
-}
-
-std::string transform(int id, int child, const Entries& frame, const Entries& attributes = {}, int layer = 0)
-{
-    return chunk("nTRN", number(id) + dictionary(attributes) + number(child) + number(-1) + number(layer) + number(1) +
-                             dictionary(frame));
-}
-
-std::string group(int id, const std::vector<int>& children)
-{
-    std::string content = number(id) + dictionary({}) + number(static_cast<std::int32_t>(children.size()));
-    for (const int child : children)
-    {
-        content += number(child);
-    }
-    return chunk("nGRP", content);
-}
-
-std::string shape(int id, int model_number)
-{
-    return chunk("nSHP", number(id) + dictionary({}) + number(1) + number(model_number) + dictionary({}));
-}
+using namespace vox;
 
 VoxVoxels read(const std::string& file)
 {
