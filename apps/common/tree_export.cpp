@@ -128,7 +128,7 @@ std::string treeFormatOf(const std::string& path)
     return std::ranges::find(kTreeFormats, format) != kTreeFormats.end() ? format : "";
 }
 
-void writeTree(const TreeData& tree, std::string_view format, Output& output, bool strict)
+void warnOfLostEmission(const TreeData& tree, std::string_view format, bool strict)
 {
     if (!tree.emission.empty() && (format == "ply" || format == "morton" || format == "nvdb"))
     {
@@ -136,6 +136,11 @@ void writeTree(const TreeData& tree, std::string_view format, Output& output, bo
                                   counted(tree.emission.size(), "voxel"), format)},
                      strict);
     }
+}
+
+void writeTree(const TreeData& tree, std::string_view format, Output& output, bool strict)
+{
+    warnOfLostEmission(tree, format, strict);
     const auto write = [&output](std::span<const std::byte> bytes) { output.write(bytes); };
     if (format == "ply")
     {

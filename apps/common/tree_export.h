@@ -17,8 +17,11 @@ inline constexpr std::array<std::string_view, 6> kTreeFormats = {"ply", "vox", "
 /// The kind of a file by its name; empty if that is none of kTreeFormats.
 std::string treeFormatOf(const std::string& path);
 
-/// Writes a tree as a file of that kind. Reports emission that is left out; strict: refuses that. Throws Error for what
-/// the kind cannot hold, and Error{Output}.
+/// Reports emission that files of a kind do not have; strict: refuses that.
+void warnOfLostEmission(const TreeData& tree, std::string_view format, bool strict);
+
+/// Writes a tree as a file of that kind, and does what warnOfLostEmission() does. Throws Error for what the kind cannot
+/// hold, and Error{Output}.
 void writeTree(const TreeData& tree, std::string_view format, Output& output, bool strict = false);
 
 /// The Morton codes of all voxels, ascending, as 64-bit little-endian integers, and nothing else.

@@ -186,6 +186,7 @@ void voxelize(const VoxelizeOptions& options)
     run.progress.begin("writing");
     {
         const TreeData tree = downloadTree(device, result.octree);
+        warnOfLostEmission(tree, format, options.voxels.load.strict);
         format == "morton" ? writeMorton(tree, run.output) : writePly(tree, run.output);
     }
     run.finish(
