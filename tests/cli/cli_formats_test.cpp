@@ -69,6 +69,35 @@ TEST_F(CliFormats, OneMeshGivesTheSameVoxelsInEveryFormat)
     EXPECT_EQ(codesOf("mesh.obj text.stl mesh.glb"), codes); // three copies of the sheet
 }
 
+TEST_F(CliFormats, PointsOfTextBecomeCubesOfVoxels)
+{
+    m_dir.write("cloud.xyz", std::string_view("# a cloud\n4.5 5.5 6.5 255 0 0\n20.5 9.5 0.5 0 255 0\n"));
+    const Outcome outcome = run("voxelize cloud.xyz -o cloud.morton --grid 0,0,0,1 --resolution 32 --point-size 3");
+    EXPECT_TRUE(contains(outcome.err, "45 voxels of 32^3 from 54 points")) << outcome.err;
+    std::vector<std::uint64_t> expected;
+    for (int i = 0; i < 27; ++i)
+    {
+        const glm::ivec3 cell(i % 3, i / 3 % 3, i / 9);
+        expected.push_back(codeOfCell(glm::uvec3(cell + glm::ivec3(3, 4, 5))));
+        if (cell.z != 0) // the grid ends there
+        {
+            expected.push_back(codeOfCell(glm::uvec3(cell + glm::ivec3(19, 8, -1))));
+        }
+    }
+    std::ranges::sort(expected);
+    EXPECT_EQ(codes("cloud.morton"), expected);
+    expectError("voxelize cloud.xyz -o a.morton --point-size 17", 2, {"--point-size", "16"});
+}
+
+TEST_F(CliFormats, EmissionThatIsLeftOutIsNamed)
+{
+    m_dir.write("lamp.mtl", std::string_view("newmtl lamp\nKe 1 1 1\n"));
+    m_dir.write("lamp.obj", std::string_view("mtllib lamp.mtl\nusemtl lamp\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"));
+    const Outcome outcome = run("voxelize lamp.obj -o a.ply --resolution 4");
+    EXPECT_TRUE(contains(outcome.err, "warning: the emission of 10 voxels left out")) << outcome.err;
+    expectError("voxelize lamp.obj -o b.ply --resolution 4 --strict", 3, {"emission of 10 voxels", "--strict"});
+}
+
 TEST_F(CliFormats, UpAndScaleMoveTheFilesNotTheVoxels)
 {
     const FileMesh mesh = bentSheet(12);

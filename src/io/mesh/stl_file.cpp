@@ -28,8 +28,6 @@ static_assert(std::endian::native == std::endian::little, "STL is little-endian 
 constexpr std::size_t kHeaderBytes = 80;
 constexpr std::size_t kFacetsOffset = kHeaderBytes + sizeof(std::uint32_t);
 constexpr std::size_t kFacetBytes = 50; // without the padding of Facet
-constexpr std::string_view kColorMark = "COLOR=";
-constexpr std::string_view kMaterialMark = "MATERIAL="; // behind it: diffuse, specular and ambient colour
 
 struct Facet
 {
@@ -68,10 +66,10 @@ std::optional<glm::u8vec4> colorBehind(std::string_view mark, std::span<const st
     return color;
 }
 
-/// Adds the colours of facets. of_head: behind "COLOR=". Materialise Magics: the head has a colour of all, and facets
-/// without the highest bit have their own, red in the lowest bits. VisCAM and SolidView: facets with the highest bit
-/// have their own, red in the highest bits; the others are white.
-void addColors(const std::optional<glm::u8vec4>& of_head, const std::vector<std::uint16_t>& facets,
+/// Adds the colours of facets; returns whether all have their own. of_head: behind "COLOR=". Materialise Magics: the
+/// head has a colour of all, and facets without the highest bit have their own, red in the lowest bits. VisCAM and
+/// SolidView: facets with the highest bit have their own, red in the highest bits; the others are white.
+bool addColors(const std::optional<glm::u8vec4>& of_head, const std::vector<std::uint16_t>& facets,
                Primitive& primitive)
 {
     constexpr std::uint32_t kHighest = 1U << 15U;
@@ -80,17 +78,20 @@ void addColors(const std::optional<glm::u8vec4>& of_head, const std::vector<std:
     const glm::dvec3 of_all = is_magics ? glm::dvec3(*of_head) / 255.0 : glm::dvec3(1.0);
     const bool are_set =
         std::ranges::any_of(facets, [&](auto bits) { return is_magics ? bits != 0 : bits >= kHighest; });
+    bool are_own = are_set;
     for (std::size_t i = 0; (are_set || is_magics) && i < facets.size(); ++i)
     {
         const std::uint32_t bits = facets[i];
         const bool is_own = are_set && (bits >= kHighest) != is_magics;
+        are_own = are_own && is_own;
         const glm::dvec3 own(bits & kChannelMax, bits >> 5U & kChannelMax, bits >> 10U & kChannelMax);
         const glm::dvec3 color = !is_own ? of_all : (is_magics ? own : glm::dvec3(own.z, own.y, own.x)) / 31.0;
         primitive.colors.insert(primitive.colors.end(), 3, srgbToLinear(glm::dvec4(color, 1.0)));
     }
+    return are_own;
 }
 
-Primitive readBinary(const std::filesystem::path& path, std::span<const std::uint8_t> bytes)
+Primitive readBinary(const std::filesystem::path& path, std::span<const std::uint8_t> bytes, MeshScene& scene)
 {
     if (bytes.size() < kFacetsOffset)
     {
@@ -117,7 +118,12 @@ Primitive readBinary(const std::filesystem::path& path, std::span<const std::uin
         addVertices(primitive, facet.corners);
         bits.push_back(facet.bits);
     }
-    addColors(colorBehind(kColorMark, bytes), bits, primitive);
+    const auto color = colorBehind("COLOR=", bytes);
+    const auto material = colorBehind("MATERIAL=", bytes); // its diffuse colour
+    if (!addColors(color, bits, primitive) && material && material != color)
+    {
+        scene.warn("the material in the head left out (MATERIAL=)");
+    }
     return primitive;
 }
 
@@ -225,13 +231,7 @@ Scene readStl(const std::filesystem::path& path, std::span<const std::uint8_t> b
 {
     const std::string_view content(reinterpret_cast<const char*>(bytes.data()), bytes.size());
     MeshScene scene(path, ImageDecoding::WhenLoaded);
-    const bool is_text = isTextStl(bytes);
-    scene.add(is_text ? TextReader(path, content).read() : readBinary(path, bytes));
-    const auto material = is_text ? std::nullopt : colorBehind(kMaterialMark, bytes);
-    if (material && material != colorBehind(kColorMark, bytes))
-    {
-        scene.warn("the material in the head left out (MATERIAL=)");
-    }
+    scene.add(isTextStl(bytes) ? TextReader(path, content).read() : readBinary(path, bytes, scene));
     return scene.finish();
 }
 
