@@ -47,7 +47,11 @@ public:
         m_dir.write("side.png", encodePng(2, 2, std::vector<std::uint8_t>(16, 200)));
     }
 
-    std::filesystem::path write(std::span<const std::uint8_t> content) const { return m_dir.write("input", content); }
+    /// As a name of text with points, which alone are not known by their content.
+    std::filesystem::path write(std::span<const std::uint8_t> content) const
+    {
+        return m_dir.write("input.xyz", content);
+    }
 
 private:
     TempDir m_dir;
@@ -68,7 +72,8 @@ std::optional<Scene> loadInput(std::span<const std::uint8_t> input)
         [&]
         {
             const std::filesystem::path path = g_session->folder.write(input);
-            return loadScene(std::span(&path, 1), {.every_animation = true});
+            const auto size = static_cast<std::uint32_t>(input.size());
+            return loadScene(std::span(&path, 1), {.every_animation = true, .point_size = 1 + size % 2});
         });
 }
 

@@ -21,14 +21,16 @@ constexpr auto kWords = std::to_array<std::string_view>(
      // OBJ
      "v", "vt", "vn", "f", "l", "p", "g", "o", "s", "usemtl", "mtllib", "side.mtl", "side.png", "../side.mtl",
      "/dev/zero", "a", "b", "newmtl", "Kd", "Ke", "d", "Tr", "map_Kd", "map_Ke", "map_d", "-s", "-o", "-t", "-mm",
-     "-clamp", "on", "-halo", "input",
+     "-clamp", "on", "-halo", "input.xyz",
      // PLY
      "ply", "format", "ascii", "binary_little_endian", "binary_big_endian", "1.0", "comment", "element", "vertex",
      "face", "tristrips", "property", "list", "char", "uchar", "short", "ushort", "int", "uint", "float", "double", "x",
      "y", "z", "nx", "red", "green", "blue", "alpha", "vertex_indices", "texcoord", "texnumber", "TextureFile",
      "end_header",
      // STL
-     "solid", "facet", "normal", "outer", "loop", "endloop", "endfacet", "endsolid", "SOLID", "END"});
+     "solid", "facet", "normal", "outer", "loop", "endloop", "endfacet", "endsolid", "SOLID", "END",
+     // text with points
+     ",", ";", "//", "0 0 1", "255 0 9", "0 0 0 0 0 0"});
 
 constexpr auto kNumbers = std::to_array<std::uint32_t>(
     {0, 1, 2, 3, 255, 256, 65535, 0x80000000, 0xffffffff, 0x3f800000, 0x7f800000, 0x7fc00000, 0x7f7fffff, 1});
