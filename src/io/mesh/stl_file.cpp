@@ -78,11 +78,14 @@ bool addColors(const std::optional<glm::u8vec4>& of_head, const std::vector<std:
     const glm::dvec3 of_all = is_magics ? glm::dvec3(*of_head) / 255.0 : glm::dvec3(1.0);
     const bool are_set =
         std::ranges::any_of(facets, [&](auto bits) { return is_magics ? bits != 0 : bits >= kHighest; });
+    // MeshLab writes the colours of Magics with the highest bit of every facet.
+    const bool is_always_own = is_magics && std::ranges::all_of(facets, [](auto bits) { return bits >= kHighest; }) &&
+                               std::ranges::any_of(facets, [](auto bits) { return bits != kHighest; });
     bool are_own = are_set;
     for (std::size_t i = 0; (are_set || is_magics) && i < facets.size(); ++i)
     {
         const std::uint32_t bits = facets[i];
-        const bool is_own = are_set && (bits >= kHighest) != is_magics;
+        const bool is_own = are_set && (is_always_own || (bits >= kHighest) != is_magics);
         are_own = are_own && is_own;
         const glm::dvec3 own(bits & kChannelMax, bits >> 5U & kChannelMax, bits >> 10U & kChannelMax);
         const glm::dvec3 color = !is_own ? of_all : (is_magics ? own : glm::dvec3(own.z, own.y, own.x)) / 31.0;

@@ -375,6 +375,8 @@ TEST(MeshExporters, StlFacetsHaveColorsOfBothConventions)
     EXPECT_EQ(colorsOf(magics, {kHighestChannel, kLowestChannel, kOwn, kOwn | kHighestChannel}),
               (Colors{blue, red, green, green}));
     EXPECT_EQ(colorsOf("Magics " + std::string(magics), {0, 0}), (Colors{green, green})) << "none has its own";
+    EXPECT_EQ(colorsOf(magics, {kOwn | kLowestChannel, kOwn | kHighestChannel}), (Colors{red, blue})) << "MeshLab";
+    EXPECT_EQ(colorsOf(magics, {kOwn, kOwn}), (Colors{green, green}));
     EXPECT_EQ(colorsOf({"COLOR=\0\xFF\0\xFF,MATERIAL=\1", 21}, {kLowestChannel}), (Colors{red})) << "no warning";
     const glm::vec4 grey = colorsOf("", {static_cast<std::uint16_t>(kOwn | (16U << 10U) | (16U << 5U) | 16U)}).at(0);
     EXPECT_NEAR(grey.g, 0.2288, 0.001) << "16 of 31 is sRGB 0.516";
