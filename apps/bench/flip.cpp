@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "bench/flip.h"
 
+#include "core/base/srgb.h"
+
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -66,11 +68,6 @@ const glm::dmat3& colorOfXyz()
     return inverse;
 }
 
-double linearOf(double code)
-{
-    return code > 0.04045 ? std::pow((code + 0.055) / 1.055, 2.4) : code / 12.92;
-}
-
 // L*, a* and b*, of which the last two count less where it is dark: the Hunt effect.
 glm::dvec3 labOf(const glm::dvec3& color)
 {
@@ -95,7 +92,7 @@ OpponentPicture opponentOf(std::span<const glm::dvec3> codes, std::uint32_t widt
     OpponentPicture picture = {empty, empty, empty};
     for (std::size_t i = 0; i < codes.size(); ++i)
     {
-        const glm::dvec3 xyz = xyzOf({linearOf(codes[i].r), linearOf(codes[i].g), linearOf(codes[i].b)});
+        const glm::dvec3 xyz = xyzOf({srgbToLinear(codes[i].r), srgbToLinear(codes[i].g), srgbToLinear(codes[i].b)});
         picture.y.values[i] = 116 * xyz.y - 16;
         picture.red_green.values[i] = 500 * (xyz.x - xyz.y);
         picture.blue_yellow.values[i] = 200 * (xyz.y - xyz.z);

@@ -9,22 +9,18 @@
 #include "io/voxel/glb_write.h"
 #include "io/voxel/nvdb_write.h"
 #include "io/voxel/vox_file.h"
+#include "io/voxel/write_bytes.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <bit>
-#include <cmath>
-#include <cstring>
-#include <vector>
+#include <span>
 
 namespace zvo::cli
 {
 
 namespace
 {
-
-static_assert(std::endian::native == std::endian::little); // numbers are written as they are in memory
 
 glm::vec3 voxelCenter(const Grid& grid, std::uint64_t code)
 {
@@ -44,81 +40,53 @@ std::string plyHeader(const TreeData& tree)
     return header + "end_header\n";
 }
 
-template <typename T> void append(std::vector<std::byte>& bytes, const T& value)
+void addAttribute(ByteCollector& bytes, const gpu::Attribute& attribute)
 {
-    const auto* first = reinterpret_cast<const std::byte*>(&value);
-    bytes.insert(bytes.end(), first, first + sizeof(value));
-}
-
-void appendAttribute(std::vector<std::byte>& bytes, const gpu::Attribute& attribute)
-{
-    append(bytes, decodeNormal(attribute.normal));
+    bytes.add(decodeNormal(attribute.normal));
     for (std::uint32_t shift = 0; shift < 24; shift += 8)
     {
-        append(bytes, static_cast<std::uint8_t>(attribute.color >> shift));
+        bytes.add(static_cast<std::uint8_t>(attribute.color >> shift));
     }
 }
 
-// Collects bytes, and writes them in pieces.
-class Pieces
+WriteBytes into(Output& output)
 {
-public:
-    explicit Pieces(Output& output) : m_output(output) {}
-
-    std::vector<std::byte>& bytes() { return m_bytes; }
-
-    void endVoxel()
-    {
-        if (m_bytes.size() >= kPieceBytes)
-        {
-            flush();
-        }
-    }
-
-    void flush()
-    {
-        m_output.write(m_bytes);
-        m_bytes.clear();
-    }
-
-private:
-    static constexpr std::size_t kPieceBytes = std::size_t{1} << 20;
-
-    Output& m_output;
-    std::vector<std::byte> m_bytes;
-};
+    return [&output](std::span<const std::byte> bytes) { output.write(bytes); };
+}
 
 } // namespace
 
 void writeMorton(const TreeData& tree, Output& output)
 {
-    Pieces pieces(output);
+    const WriteBytes write = into(output);
+    ByteCollector bytes;
     forEachVoxel(tree,
-                 [&pieces](std::uint64_t code)
+                 [&](std::uint64_t code)
                  {
-                     append(pieces.bytes(), code);
-                     pieces.endVoxel();
+                     bytes.add(code);
+                     bytes.passOn(write);
                  });
-    pieces.flush();
+    write(bytes.bytes());
 }
 
 void writePly(const TreeData& tree, Output& output)
 {
-    output.write(plyHeader(tree));
-    Pieces pieces(output);
+    const WriteBytes write = into(output);
+    ByteCollector bytes;
+    bytes.addText(plyHeader(tree));
     std::size_t voxel = 0;
     forEachVoxel(tree,
                  [&](std::uint64_t code)
                  {
-                     append(pieces.bytes(), voxelCenter(tree.grid, code));
+                     bytes.add(voxelCenter(tree.grid, code));
                      if (tree.hasAttributes())
                      {
-                         appendAttribute(pieces.bytes(), tree.voxelAttribute(voxel));
+                         addAttribute(bytes, tree.voxelAttribute(voxel));
                      }
                      ++voxel;
-                     pieces.endVoxel();
+                     bytes.passOn(write);
                  });
-    pieces.flush();
+    write(bytes.bytes());
 }
 
 std::string treeFormatOf(const std::string& path)
@@ -141,7 +109,7 @@ void warnOfLostEmission(const TreeData& tree, std::string_view format, bool stri
 void writeTree(const TreeData& tree, std::string_view format, Output& output, bool strict)
 {
     warnOfLostEmission(tree, format, strict);
-    const auto write = [&output](std::span<const std::byte> bytes) { output.write(bytes); };
+    const WriteBytes write = into(output);
     if (format == "ply")
     {
         writePly(tree, output);

@@ -163,7 +163,7 @@ Settings readSettings(const std::filesystem::path& file)
     try
     {
         const std::vector<std::uint8_t> bytes = readFile(file);
-        return parseSettings({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, file);
+        return parseSettings(asText(bytes), file);
     }
     catch (const Error& error)
     {

@@ -222,7 +222,7 @@ std::vector<ScriptedEvent> parseInputScript(std::string_view text, const std::fi
 std::vector<ScriptedEvent> readInputScript(const std::filesystem::path& file)
 {
     const std::vector<std::uint8_t> bytes = readFile(file);
-    return parseInputScript({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, file);
+    return parseInputScript(asText(bytes), file);
 }
 
 std::string inputScriptText(std::span<const ScriptedEvent> events)

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <glm/glm.hpp>
 
 namespace zvo
@@ -26,6 +27,13 @@ inline glm::vec4 srgbToLinear(const glm::dvec4& encoded)
 {
     const double alpha = encoded.a > 0.0 ? std::min(encoded.a, 1.0) : 0.0;
     return {srgbToLinear(encoded.r), srgbToLinear(encoded.g), srgbToLinear(encoded.b), alpha};
+}
+
+/// The linear colour of a word: sRGB red | green << 8 | blue << 16.
+inline glm::dvec3 linearOf(std::uint32_t color)
+{
+    return {srgbToLinear((color & 255U) / 255.0), srgbToLinear((color >> 8U & 255U) / 255.0),
+            srgbToLinear((color >> 16U & 255U) / 255.0)};
 }
 
 } // namespace zvo

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-#include "io/scene/hulls.h"
+#include "core/scene/hulls.h"
 
 #include "core/scene/mesh_parts.h"
-#include "io/scene/probe_tree.h"
+#include "core/scene/probe_tree.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>

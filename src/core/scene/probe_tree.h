@@ -17,7 +17,7 @@ namespace zvo
 /// The corners of a triangle.
 using Corners = std::array<glm::dvec3, 3>;
 
-/// A segment that looks for surfaces (io/scene/hulls.h).
+/// A segment that looks for surfaces (core/scene/hulls.h).
 struct Probe
 {
     glm::dvec3 from{0.0};

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "io/voxel/lamps.h"
+#include "core/tree/lamps.h"
 
+#include "core/base/srgb.h"
+#include "core/tree/colored_voxels.h"
 #include "core/tree/rgb9e5.h"
-#include "io/image/srgb.h"
-#include "io/voxel/colored_voxels.h"
 
 #include <algorithm>
 #include <cmath>
@@ -18,14 +18,8 @@ namespace
 
 constexpr float kSameHue = 0.02F;               // deviation from the voxel's own colour, of the largest channel
 constexpr float kStrengthSteps = 16.0F;         // that are told apart, to a doubling
-constexpr std::uint32_t kChannelBits = 8;       // of colours
+constexpr std::uint32_t kColorBits = 8;         // of colours
 constexpr std::uint32_t kEachChannel = 0x10101; // a bit of each
-
-glm::vec3 linearOf(std::uint32_t color)
-{
-    const glm::dvec3 encoded = glm::dvec3(color & 255U, color >> 8U & 255U, color >> 16U & 255U) / 255.0;
-    return srgbToLinear(glm::dvec4(encoded, 1.0));
-}
 
 float largest(const glm::vec3& v)
 {
@@ -34,7 +28,7 @@ float largest(const glm::vec3& v)
 
 Lamp lampOf(std::uint32_t color, const glm::vec3& radiance)
 {
-    const glm::vec3 own = linearOf(color);
+    const glm::vec3 own(linearOf(color));
     const float strength = largest(radiance) / std::max(largest(own), 1e-6F);
     const glm::vec3 off = glm::abs(radiance - strength * own);
     if (largest(off) <= kSameHue * largest(radiance))
@@ -52,29 +46,23 @@ Lamp lampOf(std::uint32_t color, const glm::vec3& radiance)
 
 } // namespace
 
-bool isEmissive(const TreeData& tree, std::uint64_t voxel)
-{
-    return !tree.emission_words.empty() && (tree.emission_words[voxel / 32].x >> voxel % 32 & 1U) != 0;
-}
-
 Lamps lampsOf(const TreeData& tree, std::size_t most)
 {
-    std::vector<Lamp> lights; // [emissive voxels]
-    std::uint64_t voxel = 0;
+    std::vector<Lamp> lights; // [TreeData::emission]
     forEachColoredVoxel(tree,
-                        [&](std::uint64_t, std::uint32_t color)
+                        [&](std::uint64_t, std::uint32_t color, std::uint32_t light)
                         {
-                            if (isEmissive(tree, voxel++))
+                            if (light != kNoLight)
                             {
-                                const glm::vec3 light = decodeRgb9e5(tree.emission[lights.size()]);
-                                lights.push_back(lampOf(color, tree.emission_scale * light));
+                                const glm::vec3 radiance = tree.emission_scale * decodeRgb9e5(tree.emission[light]);
+                                lights.push_back(lampOf(color, radiance));
                             }
                         });
     Lamps result;
-    for (std::uint32_t bits = 0; bits < kChannelBits; ++bits) // that are not told apart
+    for (std::uint32_t bits = 0; bits < kColorBits; ++bits) // that are not told apart
     {
         std::map<std::pair<std::uint32_t, long>, std::uint8_t> numbers;
-        result.of_voxel.clear();
+        result.of_light.clear();
         for (const Lamp& light : lights)
         {
             const std::pair key(light.color >> bits & (255U >> bits) * kEachChannel,
@@ -84,7 +72,7 @@ Lamps lampsOf(const TreeData& tree, std::size_t most)
             {
                 break;
             }
-            result.of_voxel.push_back(number);
+            result.of_light.push_back(number);
         }
         if (numbers.size() <= most)
         {
@@ -96,8 +84,8 @@ Lamps lampsOf(const TreeData& tree, std::size_t most)
     for (std::size_t i = 0; i < lights.size(); ++i)
     {
         const Lamp& light = lights[i];
-        Lamp& lamp = result.lamps[result.of_voxel[i]];
-        lamp.radiance += (light.radiance - lamp.radiance) / ++counts[result.of_voxel[i]];
+        Lamp& lamp = result.lamps[result.of_light[i]];
+        lamp.radiance += (light.radiance - lamp.radiance) / ++counts[result.of_light[i]];
         lamp.color = light.color;
     }
     for (Lamp& lamp : result.lamps)

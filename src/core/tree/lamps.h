@@ -23,11 +23,8 @@ struct Lamp
 struct Lamps
 {
     std::vector<Lamp> lamps;
-    std::vector<std::uint8_t> of_voxel; // [emissive voxels] index of the lamp, in Morton order
+    std::vector<std::uint8_t> of_light; // [TreeData::emission] index of the lamp
 };
-
-/// Whether a voxel gives off light.
-bool isEmissive(const TreeData& tree, std::uint64_t voxel);
 
 /// Chooses at most `most` (32 to 255) lamps for the emissive voxels of a tree. Where there are more kinds of light, the
 /// nearest in colour and strength become one.

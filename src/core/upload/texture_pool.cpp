@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "core/upload/texture_pool.h"
 
+#include "core/base/srgb.h"
 #include "core/upload/texture_levels.h"
 #include "vk/device.h"
 #include "zvo/error.h"
@@ -24,16 +25,6 @@ namespace
 {
 
 constexpr double kFractionOne = gpu::kFractionOne;
-
-double decodeSrgb(double encoded)
-{
-    return encoded <= 0.04045 ? encoded / 12.92 : std::pow((encoded + 0.055) / 1.055, 2.4);
-}
-
-double encodeSrgb(double linear)
-{
-    return linear <= 0.0031308 ? linear * 12.92 : 1.055 * std::pow(linear, 1.0 / 2.4) - 0.055;
-}
 
 using Texel = std::array<std::uint8_t, 4>;
 
@@ -197,7 +188,7 @@ const std::array<std::uint32_t, 256>& srgbToLinearTable()
         for (std::size_t i = 0; i < values.size(); ++i)
         {
             values[i] =
-                static_cast<std::uint32_t>(std::lround(kFractionOne * decodeSrgb(static_cast<double>(i) / 255)));
+                static_cast<std::uint32_t>(std::lround(kFractionOne * srgbToLinear(static_cast<double>(i) / 255)));
         }
         return values;
     }();
@@ -211,7 +202,8 @@ const std::vector<std::uint8_t>& linearToSrgbTable()
         std::vector<std::uint8_t> values(gpu::kFractionOne + 1);
         for (std::size_t i = 0; i < values.size(); ++i)
         {
-            values[i] = static_cast<std::uint8_t>(std::lround(255 * encodeSrgb(static_cast<double>(i) / kFractionOne)));
+            values[i] =
+                static_cast<std::uint8_t>(std::lround(255 * linearToSrgb(static_cast<double>(i) / kFractionOne)));
         }
         return values;
     }();

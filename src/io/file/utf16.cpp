@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "io/file/utf16.h"
+#include "core/base/read_file.h"
 
 #include <string_view>
 
@@ -68,7 +69,7 @@ std::vector<std::uint8_t> decodeUtf16(Bytes text, bool is_big_endian)
 
 std::optional<std::vector<std::uint8_t>> asUtf8(Bytes text)
 {
-    const std::string_view characters(reinterpret_cast<const char*>(text.data()), text.size());
+    const std::string_view characters = asText(text);
     if (characters.starts_with("\xEF\xBB\xBF"))
     {
         return std::vector<std::uint8_t>(text.begin() + 3, text.end());

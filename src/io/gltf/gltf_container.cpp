@@ -2,6 +2,7 @@
 #include "io/gltf/gltf_container.h"
 
 #include "core/base/input_error.h"
+#include "core/base/read_file.h"
 #include "io/file/json_cursor.h"
 #include "io/gltf/gltf_document.h"
 
@@ -38,11 +39,6 @@ std::uint32_t readU32(Bytes bytes, std::size_t offset)
     std::uint32_t value = 0;
     std::memcpy(&value, bytes.data() + offset, sizeof(value));
     return value;
-}
-
-std::string_view asText(Bytes bytes)
-{
-    return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
 
 GltfContainer splitGlb(Bytes file, const std::filesystem::path& path)
@@ -131,6 +127,7 @@ GltfContainer openGltfContainer(Bytes file, const std::filesystem::path& path)
 
 json parseGltfJson(std::string_view text, const std::filesystem::path& path)
 {
+    // Not by a callback of the parser, which then walks all of an array at the end of each of its items.
     if (nestingDepth(text) > kJsonDepthMax)
     {
         throw gltfError(path, fmt::format("its JSON is nested more than {} deep; {}", kJsonDepthMax, kExportAgain));

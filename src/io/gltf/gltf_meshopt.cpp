@@ -22,13 +22,9 @@ constexpr std::uint64_t kVertexStrideMax = 256;
 // before they write, that they have at least a byte for each triangle or index.
 constexpr std::uint64_t kVertexBytesPerByteMax = 64;
 
-struct PackedView
+struct PackedView : GltfPackedView
 {
     std::span<const std::uint8_t> data;
-    std::uint64_t count = 0;
-    std::uint64_t stride_bytes = 0;
-    std::string mode;
-    std::string filter;
     std::string where; // "meshopt_compression of bufferViews[2]"
 };
 
@@ -54,9 +50,10 @@ void require(bool condition, const GltfDocument& document, const PackedView& vie
 }
 
 /// Checks the sizes that the extension requires, on which the decoders rely.
-void checkSizes(const GltfDocument& document, const PackedView& view, std::uint64_t unpacked_bytes)
+void checkSizes(const GltfDocument& document, const PackedView& view)
 {
     const std::uint64_t stride = view.stride_bytes;
+    const std::uint64_t unpacked_bytes = view.unpacked_bytes;
     require(view.count <= std::numeric_limits<std::uint32_t>::max() && stride > 0 && stride <= kVertexStrideMax,
             document, view, fmt::format("has {} elements of {} bytes, which no view has", view.count, stride));
     require(unpacked_bytes == view.count * stride, document, view,
@@ -157,20 +154,14 @@ std::map<int, GltfPackedView> listMeshoptViews(const json& root)
 
 std::vector<std::uint8_t> unpackMeshoptView(const GltfDocument& document, int index, const GltfPackedView& packed)
 {
-    PackedView view;
-    view.where = fmt::format("meshopt_compression of bufferViews[{}]", index);
-    view.count = packed.count;
-    view.stride_bytes = packed.stride_bytes;
-    view.mode = packed.mode;
-    view.filter = packed.filter;
-    const std::uint64_t offset = packed.offset_bytes;
-    const std::uint64_t length = packed.length_bytes;
+    PackedView view{packed, {}, fmt::format("meshopt_compression of bufferViews[{}]", index)};
     const std::span<const std::uint8_t> buffer = document.buffers[packed.buffer];
-    require(
-        offset <= buffer.size() && length <= buffer.size() - offset, document, view,
-        fmt::format("takes {} bytes at {} of buffers[{}], which has {}", length, offset, packed.buffer, buffer.size()));
-    view.data = buffer.subspan(offset, length);
-    checkSizes(document, view, packed.unpacked_bytes);
+    require(view.offset_bytes <= buffer.size() && view.length_bytes <= buffer.size() - view.offset_bytes, document,
+            view,
+            fmt::format("takes {} bytes at {} of buffers[{}], which has {}", view.length_bytes, view.offset_bytes,
+                        view.buffer, buffer.size()));
+    view.data = buffer.subspan(view.offset_bytes, view.length_bytes);
+    checkSizes(document, view);
     document.countUnpacked(packed.unpacked_bytes, view.where);
     std::vector<std::uint8_t> unpacked(packed.unpacked_bytes);
     const bool is_newer = view.mode == "ATTRIBUTES" && !view.data.empty() && (view.data[0] & 15U) != 0;

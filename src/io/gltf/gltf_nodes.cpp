@@ -15,37 +15,6 @@ namespace zvo
 namespace
 {
 
-glm::dvec3 toVec3(const std::vector<double>& values, double missing)
-{
-    return values.empty() ? glm::dvec3(missing) : glm::dvec3(values[0], values[1], values[2]);
-}
-
-/// values: x, y, z, w.
-glm::dquat toQuaternion(const std::vector<double>& values)
-{
-    return values.empty() ? glm::dquat(1.0, 0.0, 0.0, 0.0) : glm::dquat(values[3], values[0], values[1], values[2]);
-}
-
-glm::dmat4 localMatrix(const GltfDocument& document, int index)
-{
-    const tinygltf::Node& node = document.model.nodes[index];
-    if (node.matrix.empty())
-    {
-        return composeTransform(toVec3(node.translation, 0.0), toQuaternion(node.rotation), toVec3(node.scale, 1.0));
-    }
-    glm::dmat4 matrix;
-    for (int i = 0; i < 16; ++i)
-    {
-        matrix[i / 4][i % 4] = node.matrix[i];
-    }
-    if (!isAffine(matrix))
-    {
-        throw document.error(
-            fmt::format("the last row of nodes[{}].matrix is not (0, 0, 0, 1); {}", index, kExportAgain));
-    }
-    return withAffineRow(matrix);
-}
-
 /// The nodes to begin with: those of the scene, or else all without a parent, and then, as only cycles are left, all.
 std::vector<int> findRoots(const GltfDocument& document)
 {
@@ -118,7 +87,7 @@ public:
             m_is_placed[visit.node] = true;
             const GltfPlacedNode above = visit.parent == kNone ? GltfPlacedNode{} : m_placed[visit.parent];
             const auto index = static_cast<std::uint32_t>(m_placed.size());
-            m_placed.push_back({visit.node, visit.parent, above.to_world * localMatrix(m_document, visit.node),
+            m_placed.push_back({visit.node, visit.parent, above.to_world * gltfLocalMatrix(m_document, visit.node),
                                 above.is_hidden || isHidden(m_document.model.nodes[visit.node])});
             const std::vector<int>& children = m_document.model.nodes[visit.node].children;
             for (auto child = children.rbegin(); child != children.rend(); ++child)
@@ -137,6 +106,37 @@ private:
 };
 
 } // namespace
+
+glm::dvec3 gltfVec3(const std::vector<double>& values, double missing)
+{
+    return values.empty() ? glm::dvec3(missing) : glm::dvec3(values[0], values[1], values[2]);
+}
+
+glm::dquat gltfQuaternion(const std::vector<double>& values)
+{
+    return values.empty() ? glm::dquat(1.0, 0.0, 0.0, 0.0) : glm::dquat(values[3], values[0], values[1], values[2]);
+}
+
+glm::dmat4 gltfLocalMatrix(const GltfDocument& document, int index)
+{
+    const tinygltf::Node& node = document.model.nodes[index];
+    if (node.matrix.empty())
+    {
+        return composeTransform(gltfVec3(node.translation, 0.0), gltfQuaternion(node.rotation),
+                                gltfVec3(node.scale, 1.0));
+    }
+    glm::dmat4 matrix;
+    for (int i = 0; i < 16; ++i)
+    {
+        matrix[i / 4][i % 4] = node.matrix[i];
+    }
+    if (!isAffine(matrix))
+    {
+        throw document.error(
+            fmt::format("the last row of nodes[{}].matrix is not (0, 0, 0, 1); {}", index, kExportAgain));
+    }
+    return withAffineRow(matrix);
+}
 
 std::vector<GltfPlacedNode> placeGltfNodes(const GltfDocument& document)
 {
@@ -199,9 +199,9 @@ std::vector<glm::mat4> readGltfInstances(const GltfDocument& document, int node)
     std::vector<glm::mat4> transforms;
     for (std::size_t i = 0; i < count.value_or(1); ++i)
     {
-        transforms.emplace_back(composeTransform(toVec3(read("TRANSLATION", i, 3), 0.0),
-                                                 toQuaternion(read("ROTATION", i, 4)),
-                                                 toVec3(read("SCALE", i, 3), 1.0)));
+        transforms.emplace_back(composeTransform(gltfVec3(read("TRANSLATION", i, 3), 0.0),
+                                                 gltfQuaternion(read("ROTATION", i, 4)),
+                                                 gltfVec3(read("SCALE", i, 3), 1.0)));
     }
     return transforms;
 }

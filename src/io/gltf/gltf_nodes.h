@@ -6,12 +6,22 @@
 
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <glm/gtc/quaternion.hpp>
 #include <map>
 #include <string>
 #include <vector>
 
 namespace zvo
 {
+
+/// Three numbers of a document, or `missing` for each where there are none.
+glm::dvec3 gltfVec3(const std::vector<double>& values, double missing);
+
+/// x, y, z and w of a document, or no rotation where there are none.
+glm::dquat gltfQuaternion(const std::vector<double>& values);
+
+/// The transform of a node to its parent. Throws Error{Input} for a matrix that is not affine.
+glm::dmat4 gltfLocalMatrix(const GltfDocument& document, int index);
 
 /// A node of the default scene with its transform to the world: the product of its own and its ancestors' transforms,
 /// in double precision.

@@ -4,10 +4,11 @@
 #include "io/gltf/gltf_accessor.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <fmt/format.h>
+#include <initializer_list>
 #include <optional>
+#include <string_view>
 #include <utility>
 
 namespace zvo
@@ -16,37 +17,32 @@ namespace zvo
 namespace
 {
 
-glm::vec3 toVec3(const std::vector<double>& values, const glm::vec3& missing)
-{
-    return values.empty() ? missing : glm::vec3(values[0], values[1], values[2]);
-}
-
 bool allFinite(const std::vector<float>& numbers)
 {
     return std::all_of(numbers.begin(), numbers.end(), [](float number) { return std::isfinite(number); });
 }
 
-std::optional<ChannelPath> toPath(const std::string& path)
+template <typename Value>
+std::optional<Value> named(std::initializer_list<std::pair<std::string_view, Value>> values, std::string_view name)
 {
-    constexpr std::array<std::pair<std::string_view, ChannelPath>, 4> kPaths = {
-        {{"translation", ChannelPath::Translation},
-         {"rotation", ChannelPath::Rotation},
-         {"scale", ChannelPath::Scale},
-         {"weights", ChannelPath::Weights}}};
-    const auto* found =
-        std::find_if(kPaths.begin(), kPaths.end(), [&](const auto& item) { return item.first == path; });
-    return found != kPaths.end() ? std::optional(found->second) : std::nullopt;
+    const auto* const found = std::ranges::find(values, name, &std::pair<std::string_view, Value>::first);
+    return found != values.end() ? std::optional(found->second) : std::nullopt;
 }
 
-std::optional<Interpolation> toInterpolation(const std::string& interpolation)
+std::optional<ChannelPath> toPath(std::string_view path)
 {
-    constexpr std::array<std::pair<std::string_view, Interpolation>, 3> kInterpolations = {
-        {{"STEP", Interpolation::Step},
-         {"LINEAR", Interpolation::Linear},
-         {"CUBICSPLINE", Interpolation::CubicSpline}}};
-    const auto* found = std::find_if(kInterpolations.begin(), kInterpolations.end(),
-                                     [&](const auto& item) { return item.first == interpolation; });
-    return found != kInterpolations.end() ? std::optional(found->second) : std::nullopt;
+    return named<ChannelPath>({{"translation", ChannelPath::Translation},
+                               {"rotation", ChannelPath::Rotation},
+                               {"scale", ChannelPath::Scale},
+                               {"weights", ChannelPath::Weights}},
+                              path);
+}
+
+std::optional<Interpolation> toInterpolation(std::string_view interpolation)
+{
+    return named<Interpolation>(
+        {{"STEP", Interpolation::Step}, {"LINEAR", Interpolation::Linear}, {"CUBICSPLINE", Interpolation::CubicSpline}},
+        interpolation);
 }
 
 /// Whether glTF allows the accessor's type for values of that path.
@@ -119,21 +115,12 @@ void GltfRig::addNode(const GltfPlacedNode& placed)
     Node node;
     node.parent = placed.parent;
     node.name = source.name;
-    node.translation = toVec3(source.translation, node.translation);
-    node.scale = toVec3(source.scale, node.scale);
-    if (!source.rotation.empty())
-    {
-        const glm::vec4 rotation(source.rotation[0], source.rotation[1], source.rotation[2], source.rotation[3]);
-        node.rotation = glm::quat(rotation.w, rotation.x, rotation.y, rotation.z);
-    }
+    node.translation = gltfVec3(source.translation, 0.0);
+    node.rotation = gltfQuaternion(source.rotation);
+    node.scale = gltfVec3(source.scale, 1.0);
     if (!source.matrix.empty())
     {
-        glm::dmat4 matrix;
-        for (int i = 0; i < 16; ++i)
-        {
-            matrix[i / 4][i % 4] = source.matrix[i];
-        }
-        node.matrix = glm::mat4(withAffineRow(matrix));
+        node.matrix = gltfLocalMatrix(m_document, placed.node);
     }
     if (source.mesh >= 0)
     {

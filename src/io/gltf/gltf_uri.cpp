@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "io/gltf/gltf_uri.h"
 
-#include <algorithm>
-#include <cctype>
+#include "io/file/text_cursor.h"
+
+#include <charconv>
 
 namespace zvo
 {
@@ -12,16 +13,6 @@ namespace
 
 constexpr std::string_view kDataScheme = "data:";
 constexpr std::string_view kBase64Mark = ";base64";
-
-std::optional<std::uint32_t> hexDigit(char digit)
-{
-    if (digit >= '0' && digit <= '9')
-    {
-        return digit - '0';
-    }
-    const char lower = static_cast<char>(std::tolower(static_cast<unsigned char>(digit)));
-    return lower >= 'a' && lower <= 'f' ? std::optional<std::uint32_t>(lower - 'a' + 10) : std::nullopt;
-}
 
 std::optional<std::uint32_t> base64Digit(char digit)
 {
@@ -63,15 +54,6 @@ std::optional<std::vector<std::uint8_t>> decodeBase64(std::string_view text)
     return bytes;
 }
 
-bool startsWithIgnoringCase(std::string_view text, std::string_view start)
-{
-    return text.size() >= start.size() && std::equal(start.begin(), start.end(), text.begin(),
-                                                     [](char a, char b) {
-                                                         return std::tolower(static_cast<unsigned char>(a)) ==
-                                                                std::tolower(static_cast<unsigned char>(b));
-                                                     });
-}
-
 } // namespace
 
 std::string decodePercent(std::string_view text)
@@ -79,16 +61,13 @@ std::string decodePercent(std::string_view text)
     std::string decoded;
     for (std::size_t i = 0; i < text.size(); ++i)
     {
-        if (text[i] == '%' && i + 2 < text.size())
+        std::uint8_t byte = 0;
+        const char* const digits = text.data() + i + 1;
+        if (text[i] == '%' && i + 2 < text.size() && std::from_chars(digits, digits + 2, byte, 16).ptr == digits + 2)
         {
-            const auto high = hexDigit(text[i + 1]);
-            const auto low = hexDigit(text[i + 2]);
-            if (high && low)
-            {
-                decoded += static_cast<char>(*high * 16 + *low);
-                i += 2;
-                continue;
-            }
+            decoded += static_cast<char>(byte);
+            i += 2;
+            continue;
         }
         decoded += text[i];
     }
@@ -97,7 +76,7 @@ std::string decodePercent(std::string_view text)
 
 bool isDataUri(std::string_view uri)
 {
-    return startsWithIgnoringCase(uri, kDataScheme);
+    return lowered(uri.substr(0, kDataScheme.size())) == kDataScheme;
 }
 
 bool isRemoteUri(std::string_view uri)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "io/image/hdr_image_io.h"
 
+#include "core/base/read_file.h"
 #include "io/image/image_io.h"
 #include "zvo/error.h"
 
@@ -152,7 +153,7 @@ HdrImage decodeExr(std::span<const std::uint8_t> encoded, const std::string& whe
     try
     {
         Imf::StdISStream stream;
-        stream.str({reinterpret_cast<const char*>(encoded.data()), encoded.size()});
+        stream.str(std::string(asText(encoded)));
         Imf::InputFile file(stream, 0);
         return readExr(file, where);
     }
@@ -199,7 +200,7 @@ void repair(HdrImage& image, const std::string& where, std::vector<std::string>&
 HdrImage decodeHdrImage(std::span<const std::uint8_t> encoded, const std::string& where,
                         std::vector<std::string>& warnings)
 {
-    const std::string_view head(reinterpret_cast<const char*>(encoded.data()), encoded.size());
+    const std::string_view head = asText(encoded);
     const bool is_exr = head.starts_with("\x76\x2F\x31\x01");
     if (!is_exr && !head.starts_with("#?RADIANCE") && !head.starts_with("#?RGBE"))
     {

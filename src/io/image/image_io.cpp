@@ -108,7 +108,7 @@ void checkSize(int width, int height, std::uint64_t bytes_max, const std::string
 
 bool isWebp(std::span<const std::uint8_t> encoded)
 {
-    const std::string_view text(reinterpret_cast<const char*>(encoded.data()), encoded.size());
+    const std::string_view text = asText(encoded);
     return text.starts_with("RIFF") && text.substr(std::min<std::size_t>(text.size(), 8)).starts_with("WEBP");
 }
 

@@ -61,7 +61,7 @@ bool MtlFiles::readFileNamed(const std::string& name)
     }
     MtlMaterial nowhere;
     MtlMaterial* current = &nowhere;
-    TextCursor lines({reinterpret_cast<const char*>(content.data()), content.size()});
+    TextCursor lines(asText(content));
     while (const std::optional<std::string_view> line = lines.line())
     {
         TextCursor words(*line);

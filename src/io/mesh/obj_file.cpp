@@ -3,8 +3,9 @@
 
 #include "core/base/finite.h"
 #include "core/base/input_error.h"
+#include "core/base/read_file.h"
+#include "core/base/srgb.h"
 #include "io/file/text_cursor.h"
-#include "io/image/srgb.h"
 #include "io/mesh/mtl_files.h"
 #include "io/mesh/polygon_triangulator.h"
 
@@ -286,7 +287,7 @@ private:
 
 Scene readObj(const std::filesystem::path& path, std::span<const std::uint8_t> bytes, ImageDecoding decoding)
 {
-    return ObjReader(path, {reinterpret_cast<const char*>(bytes.data()), bytes.size()}, decoding).read();
+    return ObjReader(path, asText(bytes), decoding).read();
 }
 
 } // namespace zvo

@@ -3,8 +3,9 @@
 
 #include "core/base/finite.h"
 #include "core/base/input_error.h"
+#include "core/base/read_file.h"
+#include "core/base/srgb.h"
 #include "io/file/text_cursor.h"
-#include "io/image/srgb.h"
 #include "io/mesh/mesh_scene.h"
 #include "io/mesh/ply_header.h"
 #include "io/mesh/polygon_triangulator.h"
@@ -334,7 +335,7 @@ private:
 
 Scene readPly(const std::filesystem::path& path, std::span<const std::uint8_t> bytes, ImageDecoding decoding)
 {
-    return PlyReader(path, {reinterpret_cast<const char*>(bytes.data()), bytes.size()}, decoding).read();
+    return PlyReader(path, asText(bytes), decoding).read();
 }
 
 } // namespace zvo

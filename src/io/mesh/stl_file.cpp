@@ -2,8 +2,9 @@
 #include "io/mesh/stl_file.h"
 
 #include "core/base/input_error.h"
+#include "core/base/read_file.h"
+#include "core/base/srgb.h"
 #include "io/file/text_cursor.h"
-#include "io/image/srgb.h"
 #include "io/mesh/mesh_scene.h"
 
 #include <algorithm>
@@ -57,7 +58,7 @@ std::uint32_t facetCount(std::span<const std::uint8_t> bytes)
 std::optional<glm::u8vec4> colorBehind(std::string_view mark, std::span<const std::uint8_t> bytes)
 {
     glm::u8vec4 color(0);
-    const std::size_t at = std::string_view(reinterpret_cast<const char*>(bytes.data()), kHeaderBytes).find(mark);
+    const std::size_t at = asText(bytes.first(kHeaderBytes)).find(mark);
     if (at > kHeaderBytes - mark.size() - sizeof(color))
     {
         return std::nullopt;
@@ -225,14 +226,14 @@ bool isBinaryStl(std::span<const std::uint8_t> content)
 bool isTextStl(std::span<const std::uint8_t> content)
 {
     constexpr std::size_t kHead = 512; // a binary file has a byte 0 in it, if only in its count of facets
-    const std::string_view text(reinterpret_cast<const char*>(content.data()), std::min(content.size(), kHead));
+    const std::string_view text = asText(content.first(std::min(content.size(), kHead)));
     const std::string first = lowered(TextCursor(text).word());
     return (first == "solid" || first == "facet") && text.find('\0') == text.npos && !isBinaryStl(content);
 }
 
 Scene readStl(const std::filesystem::path& path, std::span<const std::uint8_t> bytes)
 {
-    const std::string_view content(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+    const std::string_view content = asText(bytes);
     MeshScene scene(path, ImageDecoding::WhenLoaded);
     scene.add(isTextStl(bytes) ? TextReader(path, content).read() : readBinary(path, bytes, scene));
     return scene.finish();

@@ -3,8 +3,9 @@
 
 #include "core/base/finite.h"
 #include "core/base/input_error.h"
+#include "core/base/read_file.h"
+#include "core/base/srgb.h"
 #include "io/file/text_cursor.h"
-#include "io/image/srgb.h"
 #include "io/mesh/mesh_scene.h"
 
 #include <algorithm>
@@ -184,7 +185,7 @@ bool isXyzExtension(std::string_view extension)
 
 Scene readXyz(const std::filesystem::path& path, std::span<const std::uint8_t> bytes)
 {
-    return XyzReader(path, {reinterpret_cast<const char*>(bytes.data()), bytes.size()}).read();
+    return XyzReader(path, asText(bytes)).read();
 }
 
 } // namespace zvo

@@ -139,7 +139,7 @@ CameraPath parseCameraPath(std::string_view text, const std::filesystem::path& f
 CameraPath readCameraPath(const std::filesystem::path& file)
 {
     const std::vector<std::uint8_t> bytes = readFile(file);
-    return parseCameraPath({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, file);
+    return parseCameraPath(asText(bytes), file);
 }
 
 std::string cameraPathText(const CameraPath& path)

@@ -5,6 +5,7 @@
 #include "core/base/read_file.h"
 #include "core/file/zvo_file.h"
 #include "core/scene/animation.h"
+#include "core/scene/hulls.h"
 #include "core/scene/points.h"
 #include "io/file/text_cursor.h"
 #include "io/file/utf16.h"
@@ -13,7 +14,6 @@
 #include "io/mesh/ply_file.h"
 #include "io/mesh/stl_file.h"
 #include "io/mesh/xyz_file.h"
-#include "io/scene/hulls.h"
 
 #include <algorithm>
 #include <array>
@@ -47,7 +47,7 @@ std::string lowerExtension(const std::filesystem::path& path)
 
 std::optional<FileFormat> formatOf(std::span<const std::uint8_t> bytes, const std::string& extension)
 {
-    const std::string_view content(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+    const std::string_view content = asText(bytes);
     if (content.starts_with("glTF") || extension == ".gltf" || extension == ".glb")
     {
         return FileFormat::Gltf;
@@ -92,8 +92,7 @@ Scene loadFile(const std::filesystem::path& path, ImageDecoding decoding)
     {
         bytes = *std::move(utf8);
     }
-    if (extension == ".vox" ||
-        std::string_view(reinterpret_cast<const char*>(bytes.data()), bytes.size()).starts_with("VOX "))
+    if (extension == ".vox" || asText(bytes).starts_with("VOX "))
     {
         throw inputError(path, "a .vox file holds voxels and no triangles; zvo render shows it, zvo convert a.vox -o "
                                "a.zvo makes a tree of it");

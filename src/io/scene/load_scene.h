@@ -31,7 +31,7 @@ struct LoadOptions
     float scale = 1.0F;           // world units of a unit of the file, above 0
     bool every_animation = false; // keeps all animations of a file, for keepAnimation(); otherwise only the first one
     bool bind_pose = false;       // meshes as they were modelled (asModelled())
-    bool keep_hulls = false;      // of toon shading (io/scene/hulls.h); otherwise they are left out, with a warning
+    bool keep_hulls = false;      // of toon shading (core/scene/hulls.h); otherwise they are left out, with a warning
     bool strict = false;          // refuses files that Scene::warnings would have a line about
     std::uint32_t point_size = 1; // edge of the cube of voxels that a point becomes, up to kPointSizeMax
     ImageDecoding images = ImageDecoding::WhenLoaded; // strict loading decodes them at once

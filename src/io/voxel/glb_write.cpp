@@ -2,10 +2,10 @@
 #include "io/voxel/glb_write.h"
 
 #include "core/base/morton.h"
+#include "core/base/srgb.h"
+#include "core/tree/colored_voxels.h"
+#include "core/tree/lamps.h"
 #include "core/tree/tree_build.h"
-#include "io/image/srgb.h"
-#include "io/voxel/colored_voxels.h"
-#include "io/voxel/lamps.h"
 #include "io/voxel/write_bytes.h"
 #include "zvo/error.h"
 
@@ -73,13 +73,11 @@ struct Face
 std::vector<Face> facesOf(const TreeData& tree, const Lamps& lamps, const Side& side)
 {
     std::vector<Face> faces;
-    std::uint64_t voxel = 0;
-    auto next_lamp = lamps.of_voxel.begin();
     forEachColoredVoxel(tree,
-                        [&](std::uint64_t code, std::uint32_t color)
+                        [&](std::uint64_t code, std::uint32_t color, std::uint32_t light)
                         {
                             const glm::ivec3 cell(cellOfCode(code));
-                            const std::uint32_t material = isEmissive(tree, voxel++) ? *next_lamp++ + 1U : 0U;
+                            const std::uint32_t material = light == kNoLight ? 0U : lamps.of_light[light] + 1U;
                             glm::ivec3 neighbor = cell;
                             neighbor[side.axis] += side.upper ? 1 : -1;
                             if (!hasVoxel(tree, neighbor))
@@ -159,15 +157,9 @@ std::array<glm::vec3, kVerticesOfQuad> cornersOf(const Quad& quad)
 // The colour as linear 16-bit fractions, with alpha 1.
 std::array<std::uint16_t, 4> linearColor(std::uint32_t color)
 {
-    constexpr double kOne = 65535.0;
-    std::array<std::uint16_t, 4> linear{};
-    for (std::size_t channel = 0; channel < 3; ++channel)
-    {
-        const double encoded = (color >> (8 * channel) & 255U) / 255.0;
-        linear[channel] = static_cast<std::uint16_t>(std::lround(srgbToLinear(encoded) * kOne));
-    }
-    linear[3] = UINT16_MAX;
-    return linear;
+    const glm::dvec3 linear = glm::round(65535.0 * linearOf(color));
+    return {static_cast<std::uint16_t>(linear.r), static_cast<std::uint16_t>(linear.g),
+            static_cast<std::uint16_t>(linear.b), UINT16_MAX};
 }
 
 std::string materialOf(const Lamp* lamp)

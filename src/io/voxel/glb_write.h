@@ -11,8 +11,8 @@ namespace zvo
 /// become one mesh: neighbouring faces of the same colour in one plane become rectangles (rows first, then equal rows
 /// of neighbours) of four vertices each. Voxels' colours become vertex colours, in linear 16-bit fractions. The node's
 /// translation and scale take cells to world space. Normals are those of the faces. Voxels that emit have materials of
-/// their own (io/voxel/lamps.h). A tree without voxels gives a file without a mesh. Throws Error{Usage} for a mesh of 4
-/// GiB and more.
+/// their own (core/tree/lamps.h). A tree without voxels gives a file without a mesh. Throws Error{Usage} for a mesh of
+/// 4 GiB and more.
 void writeGlb(const TreeData& tree, const WriteBytes& write);
 
 } // namespace zvo

@@ -2,8 +2,8 @@
 #include "io/voxel/nvdb_write.h"
 
 #include "core/base/morton.h"
-#include "io/image/srgb.h"
-#include "io/voxel/colored_voxels.h"
+#include "core/base/srgb.h"
+#include "core/tree/colored_voxels.h"
 #include "zvo/error.h"
 
 #include <fmt/format.h>
@@ -32,7 +32,7 @@ Handle gridOf(const TreeData& tree, const char* name, nanovdb::GridClass grid_cl
     nanovdb::GridBuilder<Value> builder(Value(0.0F), grid_class);
     auto values = builder.getAccessor();
     forEachColoredVoxel(tree,
-                        [&](std::uint64_t code, std::uint32_t color)
+                        [&](std::uint64_t code, std::uint32_t color, std::uint32_t)
                         {
                             const glm::ivec3 cell(cellOfCode(code));
                             values.setValue({cell.x, cell.y, cell.z}, valueOf(color));
@@ -52,9 +52,9 @@ Handle gridOf(const TreeData& tree, const char* name, nanovdb::GridClass grid_cl
 std::array<Handle, 2> gridsOf(const TreeData& tree)
 {
     std::array<float, 256> linear{};
-    for (std::size_t i = 0; i < linear.size(); ++i)
+    for (std::uint32_t i = 0; i < linear.size(); ++i)
     {
-        linear[i] = static_cast<float>(srgbToLinear(static_cast<double>(i) / 255.0));
+        linear[i] = static_cast<float>(linearOf(i).r);
     }
     return {gridOf<float>(tree, "density", nanovdb::GridClass::FogVolume, [](std::uint32_t) { return 1.0F; }),
             gridOf<nanovdb::Vec3f>(tree, "color", nanovdb::GridClass::VoxelVolume,

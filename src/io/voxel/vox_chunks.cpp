@@ -3,6 +3,7 @@
 
 #include "core/base/color_word.h"
 #include "core/base/input_error.h"
+#include "core/base/read_file.h"
 #include "io/file/text_cursor.h"
 
 #include <algorithm>
@@ -74,11 +75,7 @@ public:
         return static_cast<std::uint32_t>(value);
     }
 
-    std::string_view text()
-    {
-        const auto bytes = take(count(1));
-        return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
-    }
+    std::string_view text() { return asText(take(count(1))); }
 
     Dictionary dictionary()
     {
@@ -145,7 +142,7 @@ private:
     {
         Content file(bytes, m_name);
         constexpr std::string_view kMagic = "VOX ";
-        if (bytes.size() < 8 || nameOf(file.take(4)) != kMagic)
+        if (bytes.size() < 8 || asText(file.take(4)) != kMagic)
         {
             fail("not a MagicaVoxel file: it does not begin with \"VOX \"");
         }
@@ -154,7 +151,7 @@ private:
         {
             fail(fmt::format("version {} of the format; those from 150 to 299 can be read", version));
         }
-        if (nameOf(file.take(4)) != "MAIN")
+        if (asText(file.take(4)) != "MAIN")
         {
             fail(fmt::format("its first chunk is not MAIN; {}", kExportAgain));
         }
@@ -164,7 +161,7 @@ private:
         Content children(file.take(children_bytes), m_name);
         while (children.restBytes() != 0)
         {
-            const std::string_view id = nameOf(children.take(4));
+            const std::string_view id = asText(children.take(4));
             const std::uint32_t bytes_here = children.size();
             const std::uint32_t bytes_below = children.size();
             Content content(children.take(bytes_here), m_name);
@@ -175,11 +172,6 @@ private:
         {
             fail(fmt::format("a model has a size and no voxels; {}", kExportAgain));
         }
-    }
-
-    static std::string_view nameOf(std::span<const std::uint8_t> bytes)
-    {
-        return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
     }
 
     void readChunk(std::string_view id, Content& content)

@@ -37,7 +37,7 @@ VoxVoxels readVox(std::span<const std::uint8_t> bytes, const std::filesystem::pa
 
 /// Hands the bytes of a .vox file to write, piece by piece: a model for each block of 256^3 voxels that has any, in
 /// Morton order, and 255 colours for those of the voxels (io/voxel/quantize.h), of which up to 128, and at least 32,
-/// are those of lamps (io/voxel/lamps.h). Normals are left out. Throws Error{Usage} for more voxels than 2 GiB hold.
+/// are those of lamps (core/tree/lamps.h). Normals are left out. Throws Error{Usage} for more voxels than 2 GiB hold.
 void writeVox(const TreeData& tree, const WriteBytes& write);
 
 } // namespace zvo

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "core/base/input_error.h"
 #include "core/base/morton.h"
-#include "io/image/srgb.h"
+#include "core/base/srgb.h"
 #include "io/voxel/vox_chunks.h"
 #include "io/voxel/vox_file.h"
 
@@ -134,13 +134,6 @@ private:
         }
     }
 
-    [[nodiscard]] glm::vec3 emissionOf(std::uint32_t color_index) const
-    {
-        const std::uint32_t color = m_scene.palette[color_index];
-        const glm::dvec3 encoded = glm::dvec3(color & 255U, color >> 8U & 255U, color >> 16U & 255U) / 255.0;
-        return m_scene.emission[color_index] * glm::vec3(srgbToLinear(glm::dvec4(encoded, 1.0)));
-    }
-
     void addWarnings(const std::vector<std::pair<std::uint64_t, std::uint32_t>>& voxels)
     {
         std::set<std::string> kinds; // of materials of voxels
@@ -192,7 +185,8 @@ private:
             {
                 m_result.codes.push_back(voxels[i].first);
                 m_result.colors.push_back(m_scene.palette[voxels[i].second]);
-                m_result.emission.push_back(emissionOf(voxels[i].second));
+                m_result.emission.push_back(m_scene.emission[voxels[i].second] *
+                                            glm::vec3(linearOf(m_result.colors.back())));
             }
         }
         addWarnings(voxels);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "core/base/color_word.h"
 #include "core/base/morton.h"
-#include "io/voxel/colored_voxels.h"
-#include "io/voxel/lamps.h"
+#include "core/tree/colored_voxels.h"
+#include "core/tree/lamps.h"
 #include "io/voxel/quantize.h"
 #include "io/voxel/vox_file.h"
 #include "io/voxel/write_bytes.h"
@@ -160,10 +160,9 @@ struct Contents
 Contents contentsOf(const TreeData& tree)
 {
     Contents contents;
-    std::uint64_t voxel = 0;
     std::uint64_t last_block = UINT64_MAX;
     forEachColoredVoxel(tree,
-                        [&](std::uint64_t code, std::uint32_t color)
+                        [&](std::uint64_t code, std::uint32_t color, std::uint32_t light)
                         {
                             if (code >> (3 * kBlockBits) != last_block)
                             {
@@ -175,7 +174,7 @@ Contents contentsOf(const TreeData& tree)
                             ++model.voxel_count;
                             model.min = glm::min(model.min, position);
                             model.max = glm::max(model.max, position);
-                            contents.color_counts[color] += isEmissive(tree, voxel++) ? 0 : 1;
+                            contents.color_counts[color] += light == kNoLight ? 1 : 0;
                         });
     return contents;
 }
@@ -221,10 +220,8 @@ void writeVox(const TreeData& tree, const WriteBytes& write)
     writer.number(static_cast<std::int64_t>(children_bytes));
     auto next_model = models.begin();
     std::uint64_t rest = 0; // voxels of the current model
-    std::uint64_t voxel = 0;
-    auto next_lamp = lamps.of_voxel.begin();
     forEachColoredVoxel(tree,
-                        [&](std::uint64_t code, std::uint32_t color)
+                        [&](std::uint64_t code, std::uint32_t color, std::uint32_t light)
                         {
                             if (rest == 0)
                             {
@@ -233,8 +230,8 @@ void writeVox(const TreeData& tree, const WriteBytes& write)
                             }
                             --rest;
                             const glm::ivec3 position = turned(cellOfCode(code)) - std::prev(next_model)->min;
-                            const std::size_t index = isEmissive(tree, voxel++) ? palette.colors.size() + *next_lamp++
-                                                                                : palette.indices[color];
+                            const std::size_t index = light == kNoLight ? palette.indices[color]
+                                                                        : palette.colors.size() + lamps.of_light[light];
                             writer.add(std::array<std::uint8_t, 4>{
                                 static_cast<std::uint8_t>(position.x), static_cast<std::uint8_t>(position.y),
                                 static_cast<std::uint8_t>(position.z), static_cast<std::uint8_t>(index + 1)});

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Inverted hulls are left out, and what only looks like one stays.
-#include "io/scene/hulls.h"
+#include "core/scene/hulls.h"
 
 #include "support/toon_scene.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "io/scene/probe_tree.h"
+#include "core/scene/probe_tree.h"
 
 #include <gtest/gtest.h>
 #include <numeric>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Voxels of a scene with inverted hulls show what a rasterizer shows that culls back faces.
+#include "core/scene/hulls.h"
 #include "core/upload/gpu_scene.h"
-#include "io/scene/hulls.h"
 #include "runtime/trees.h"
 #include "support/engine_device.h"
 #include "support/pictures.h"

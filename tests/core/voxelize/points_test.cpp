@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Clouds of points against voxels that are computed here, in double precision.
+#include "core/base/srgb.h"
 #include "core/scene/points.h"
 #include "core/upload/lost_parts.h"
-#include "io/image/srgb.h"
 #include "oracle/morton.h"
 #include "runtime/trees.h"
 #include "support/engine_device.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Files without faces, which hold clouds of points.
-#include "io/image/srgb.h"
+#include "core/base/srgb.h"
 #include "support/errors.h"
 #include "support/load_files.h"
 
