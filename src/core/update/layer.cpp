@@ -25,12 +25,6 @@ VoxelForm formOf(Coverage coverage, LayerContents contents)
     return {.coverage = coverage, .attributes = contents.attributes, .emission = contents.emission};
 }
 
-// Movement changes counts from frame to frame.
-std::uint64_t grownCount(std::uint64_t tried, std::uint64_t needed)
-{
-    return needed > tried ? withSlack(needed) : tried;
-}
-
 } // namespace
 
 LayerCapacities LayerCapacities::estimate(const GpuScene& scene, const Grid& grid, Coverage coverage)
@@ -52,13 +46,13 @@ LayerCapacities LayerCapacities::grownFor(const gpu::LayerCounters& layer) const
 {
     LayerCapacities grown = *this;
     const VoxelizeCapacities needed = voxelize.grownFor(layer.bins);
-    grown.voxelize.bricks = grownCount(voxelize.bricks, needed.bricks);
+    grown.voxelize.bricks = enough(voxelize.bricks, needed.bricks);
     grown.voxelize.table = std::max(needed.table, std::bit_ceil(2 * grown.voxelize.bricks));
-    grown.voxelize.setups = grownCount(voxelize.setups, needed.setups);
-    grown.voxelize.items = grownCount(voxelize.items, needed.items);
-    grown.voxelize.large = grownCount(voxelize.large, needed.large);
-    grown.leaves = grownCount(leaves, layer.leaf_count);
-    grown.voxels = grownCount(voxels, layer.voxel_count);
+    grown.voxelize.setups = enough(voxelize.setups, needed.setups);
+    grown.voxelize.items = enough(voxelize.items, needed.items);
+    grown.voxelize.large = enough(voxelize.large, needed.large);
+    grown.leaves = enough(leaves, layer.leaf_count);
+    grown.voxels = enough(voxels, layer.voxel_count);
     return grown;
 }
 

@@ -21,11 +21,6 @@ std::uint64_t recentMost(std::uint64_t most, std::uint64_t needed)
     return std::max(needed, most - divideUp(most, 1024)); // half in 700 updates
 }
 
-std::uint64_t enough(std::uint64_t capacity, std::uint64_t needed)
-{
-    return needed > capacity ? withSlack(needed) : capacity;
-}
-
 } // namespace
 
 void UpdateSizes::begin(std::uint64_t leaves)

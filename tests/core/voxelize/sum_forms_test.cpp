@@ -214,10 +214,10 @@ TEST(SumForms, KernelsOfBuildsReachTheirBuffersThroughDescriptors)
         }
     }
     const std::string suffix = SumForm::on(bound.device()).int64 ? "_int64" : "";
-    EXPECT_EQ(names, (std::set<std::string>{"octree/average", "octree/parents", "voxelize/attributes" + suffix, "voxelize/bin",
-                                            "voxelize/bin_large", "voxelize/brick_leaves", "voxelize/collect_bricks",
-                                            "voxelize/cover", "voxelize/list_bricks", "voxelize/resolve",
-                                            "voxelize/resolve_leaves"}));
+    EXPECT_EQ(names, (std::set<std::string>{"octree/average", "octree/parents", "voxelize/attributes" + suffix,
+                                            "voxelize/bin", "voxelize/bin_large", "voxelize/brick_leaves",
+                                            "voxelize/collect_bricks", "voxelize/cover", "voxelize/list_bricks",
+                                            "voxelize/resolve", "voxelize/resolve_leaves"}));
 }
 
 TEST_P(SumFormsBothCoverages, OfMixedVoxelsWithTooManyFragmentsLeaveTheSameBytes)
