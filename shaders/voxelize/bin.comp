@@ -11,7 +11,6 @@ GPU_ENTRY(BinParams, VOXELIZE_BIN_CONSTANTS);
 layout(local_size_x = kChunkTriangles) in;
 
 const bool kThin = kCoverage == kCoverageThin;
-const bool kKeepsSetups = kMode == kModeAttributes || kMaterialClass == kClassAlpha || !kThin; // of small triangles
 
 #define BRICKS_BINDING 0
 #define COLOR_BINDING 15

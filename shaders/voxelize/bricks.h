@@ -156,7 +156,8 @@ struct BinParams // push constants of voxelize/bin: a thread a triangle
     CONSTANT(3, MaterialClass, material_class, kMaterialClass, kClassPlain)                                            \
     CONSTANT(4, Coverage, coverage, kCoverage, kCoverageConservative)                                                  \
     CONSTANT(5, RasterMode, mode, kMode, kModeCoverage) /* or kModeAttributes: fragments will be shaded */             \
-    CONSTANT(6, bool, emits, kEmits, false)
+    CONSTANT(6, bool, emits, kEmits, false)                                                                            \
+    CONSTANT(7, bool, keeps_setups, kKeepsSetups, false) /* of small triangles with items: later kernels need them */
 GPU_KERNEL(voxelize, bin, Bin, BinParams, VOXELIZE_BIN_CONSTANTS)
 
 struct BinLargeParams // push constants of voxelize/bin_large: kBlockLanes threads a block

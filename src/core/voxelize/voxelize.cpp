@@ -45,6 +45,12 @@ bool hasSurfaces(const GpuScene& scene)
     return scene.highestClass() != MaterialClass::Plain || scene.colors.count() != 0;
 }
 
+// Whether items of small triangles are looked at again: to find or to shade their voxels, or to test their alpha.
+bool needsSetups(const VoxelForm& form, const GpuScene& scene)
+{
+    return form.attributes || form.coverage == Coverage::Conservative || scene.highestClass() == MaterialClass::Alpha;
+}
+
 std::uint64_t surfacesOf(const VoxelForm& form, const GpuScene& scene, std::uint64_t setups)
 {
     return hasSurfaces(scene) ? setups * (form.emission ? 2 : 1) : 0;
@@ -79,7 +85,8 @@ void binChunks(vk::FrameGraph& graph, const VoxelizeJob& job, MaterialClass mate
                                          .material_class = material_class,
                                          .coverage = form.coverage,
                                          .mode = form.attributes ? RasterMode::Attributes : RasterMode::Coverage,
-                                         .emits = form.emission});
+                                         .emits = form.emission,
+                                         .keeps_setups = needsSetups(form, job.scene.uploaded())});
     readColorTables(pass, job.scene.uploaded());
     gpu::BinParams params{};
     params.scene = job.scene.read(pass);

@@ -75,6 +75,21 @@ TEST(Bricks, OfMaterialsGiveTheSameBytes)
     expectSameBytes(test::materialsScene(64), Grid{glm::vec3(0), 1.0F, 6});
 }
 
+// Later kernels look at triangles again for their alpha alone.
+TEST(Bricks, WithoutAttributesHaveTheOraclesVoxels)
+{
+    const Scene scene = test::materialsScene(64, 60);
+    for (const Grid& grid : {Grid{glm::vec3(0), 1.0F, 6}, Grid{glm::vec3(0), 8.0F, 3}}) // large triangles, small ones
+    {
+        for (const Coverage coverage : {Coverage::Thin, Coverage::Conservative})
+        {
+            const DeviceTree octree =
+                buildOctree(test::device(), uploadScene(test::device(), scene, false), grid, {coverage, false}).octree;
+            EXPECT_EQ(voxelCodes(test::device(), octree), oracle::voxelize(scene, grid, coverage).codes);
+        }
+    }
+}
+
 TEST(Bricks, OfTrianglesAndPointsGiveTheSameBytes)
 {
     Scene scene = triangles(100, 9, 30);
