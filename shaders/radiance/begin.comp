@@ -32,7 +32,8 @@ void main()
 
     NextRay next;
     next.exists = exists;
-    uint seed = hashPair(hashPair(key.x, key.y), params.seed);
+    uvec2 seeds = seedsOfFace(key);
+    uint seed = hashPair(hashPair(seeds.x, seeds.y), params.seed);
     next.state = PathState(vec3(1.0), path, seed, normalOfFace(key), 0.0, vec3(0.0));
     next.choice = samplePair(params.sample_index, seed, kPairOther).x;
     uvec3 cell = cellOfFace(key);

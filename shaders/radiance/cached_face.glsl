@@ -17,24 +17,33 @@
 // cell: of the level. normal: its number as in LightBrick::exposed.
 uvec2 faceKey(uvec3 cell, uint normal, uint level)
 {
-    return uvec2(cell.x | (cell.y << 18), (cell.y >> 13) | (cell.z << 5) | (normal << 23) | (level << 26)) |
-           kFaceKeyTag;
+    return uvec2(cell.x | ((cell.y & 511u) << 18) | kFaceKeyTag,
+                 (cell.y >> 9) | (cell.z << 9) | ((normal + 1u) << 27) | (level << 30));
 }
 
 uvec3 cellOfFace(uvec2 key)
 {
-    return uvec3(key.x & 0x3FFFFu, bitfieldExtract(key.x, 18, 13) | ((key.y & 31u) << 13),
-                 bitfieldExtract(key.y, 5, 18));
+    return uvec3(key.x & 0x3FFFFu, bitfieldExtract(key.x, 18, 9) | ((key.y & 511u) << 9),
+                 bitfieldExtract(key.y, 9, 18));
 }
 
 uint normalOfFace(uvec2 key)
 {
-    return bitfieldExtract(key.y, 23, 3);
+    return bitfieldExtract(key.y, 27, 3) - 1u;
 }
 
 uint levelOfFace(uvec2 key)
 {
-    return bitfieldExtract(key.y, 26, 5);
+    return key.y >> 30;
+}
+
+// Two words that the random numbers of a face depend on.
+uvec2 seedsOfFace(uvec2 key)
+{
+    uvec3 cell = cellOfFace(key);
+    return uvec2(cell.x | (cell.y << 18),
+                 (cell.y >> 13) | (cell.z << 5) | (normalOfFace(key) << 23) | (levelOfFace(key) << 26)) |
+           (1u << 31);
 }
 
 vec3 thresholdsOf(uint random)

@@ -11,8 +11,9 @@
 
 const uint kNoFace = ~0u;
 
-// The first slot to look at. The faces of 2x2x2 cells of a level stand side by side.
-uint faceHome(uvec3 cell, uint normal, uint level)
+// Where a face, or a brick, may be: in a first slot (x), then in slots that are a step (y) apart. The faces of 2x2x2
+// cells of a level have their first ones side by side, and the same step.
+uvec2 placesOfFace(uvec3 cell, uint normal, uint level)
 {
     uvec3 pair = cell >> 1;
     uint mixed = pair.x * 0x9E3779B1u ^ pair.y * 0x85EBCA77u ^ pair.z * 0xC2B2AE3Du ^
@@ -22,26 +23,47 @@ uint faceHome(uvec3 cell, uint normal, uint level)
     uint run;
     uint rest;
     umulExtended(mixed, params.run_count, run, rest);
-    return kFaceRun * run + ((cell.x & 1u) | ((cell.y & 1u) << 1) | ((cell.z & 1u) << 2));
+    uint slot = kFaceRun * run + ((cell.x & 1u) | ((cell.y & 1u) << 1) | ((cell.z & 1u) << 2));
+    return uvec2(slot, (rest >> 25) | 1u); // less than kFaceRun * kFaceRunsMin
 }
 
-uint slotAfter(uint slot)
+uint placeAfter(uvec2 places)
 {
-    return slot + 1u == kFaceRun * params.run_count ? 0u : slot + 1u;
+    uint slot = places.x + places.y;
+    uint end = kFaceRun * params.run_count;
+    return slot < end ? slot : slot - end;
+}
+
+// How many places after the first one are to be looked at, as a number of 4 bits, rounded up: in the key of a first
+// slot, for all faces that have it, so that most lookups of faces that are not there end in it.
+uint reachFor(uint places)
+{
+    return places <= 8u ? places : uint(findMSB(places - 1u)) + 6u;
+}
+
+uint placesWithin(uint reach)
+{
+    return reach <= 8u ? reach : 1u << (reach - 5u);
+}
+
+bool hasKey(CachedFace face, uvec2 key)
+{
+    return uvec2(bitfieldExtract(face.key.x, 0, int(kFaceReachShift)), face.key.y) == key;
 }
 
 // The slot of a face, or of a brick, that an earlier dispatch inserted, or kNoFace. face: its contents.
 uint findFace(uvec3 cell, uint normal, uint level, out CachedFace face)
 {
     uvec2 key = faceKey(cell, normal, level);
-    uint slot = faceHome(cell, normal, level);
-    face = loadFace(slot);
-    for (uint probe = 0u; face.key != key && face.key.x != 0u && probe < kFaceProbesMax; ++probe)
+    uvec2 places = placesOfFace(cell, normal, level);
+    face = loadFace(places.x);
+    uint others = placesWithin(face.key.x >> kFaceReachShift);
+    for (uint place = 0u; !hasKey(face, key) && place < others; ++place)
     {
-        slot = slotAfter(slot);
-        face = loadFace(slot);
+        places.x = placeAfter(places);
+        face = loadFace(places.x);
     }
-    return face.key == key ? slot : kNoFace;
+    return hasKey(face, key) ? places.x : kNoFace;
 }
 
 // The light of the faces with a normal in the least brick around a voxel's cell that keeps some. w: 1; 0 where none

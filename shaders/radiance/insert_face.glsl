@@ -20,32 +20,39 @@ void countFaces(uint level, uint more)
 }
 
 // The slot of a face, or of a brick, which is taken if it has none; kNoFace if there is no place. claimed: whether this
-// thread has taken it. Of both words of a key, which are set one after the other, each is written at most once:
-// lib/bricks.glsl says why that suffices.
+// thread has taken it. Of both words of a key, which are set one after the other, each is written at most once, but for
+// the reach: lib/bricks.glsl says why that suffices. The reach is for later dispatches.
 uint placeFace(uvec3 cell, uint normal, uint level, out bool claimed)
 {
     uvec2 key = faceKey(cell, normal, level);
-    uint slot = faceHome(cell, normal, level);
+    uvec2 places = placesOfFace(cell, normal, level);
+    uint first = places.x;
+    uint first_word = key.x;
     bool searching = true;
     claimed = false;
-    for (uint probe = 0u; searching && probe < kFaceProbesMax; ++probe)
+    uint place = 0u;
+    for (; searching && place < kFaceProbesMax; ++place)
     {
-        uvec2 found = loadFace(slot).key;
+        uvec2 found = loadFace(places.x).key;
         if (found.x == 0u)
         {
-            found.x = atomicCompSwap(FACE_WORD(slot, 0u), 0u, key.x);
+            found.x = atomicCompSwap(FACE_WORD(places.x, 0u), 0u, key.x);
             found.x = found.x == 0u ? key.x : found.x;
         }
+        found.x = bitfieldExtract(found.x, 0, int(kFaceReachShift));
         if (found.x == key.x && found.y == 0u)
         {
-            found.y = atomicCompSwap(FACE_WORD(slot, 1u), 0u, key.y);
+            found.y = atomicCompSwap(FACE_WORD(places.x, 1u), 0u, key.y);
             claimed = found.y == 0u;
             found.y = claimed ? key.y : found.y;
         }
         searching = found != key;
-        slot = searching ? slotAfter(slot) : slot;
+        first_word = place == 0u ? found.x : first_word;
+        places.x = searching ? placeAfter(places) : places.x;
     }
-    return searching ? kNoFace : slot;
+    if (claimed && place > 1u)
+        atomicMax(FACE_WORD(first, 0u), first_word | (reachFor(place - 1u) << kFaceReachShift));
+    return searching ? kNoFace : places.x;
 }
 
 // placeFace(), and counts the face, or that it was refused.

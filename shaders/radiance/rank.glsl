@@ -13,7 +13,8 @@ const float kFreshShare = 64.0; // one without samples, than one with as many or
 // The rank of a face in a frame: it does not depend on the slot.
 uint rankOfFace(CachedFace face, uint mark, uint frame)
 {
-    uint random = hashPair(hashPair(face.key.x, face.key.y), frame) >> 9;
+    uvec2 seeds = seedsOfFace(face.key);
+    uint random = hashPair(hashPair(seeds.x, seeds.y), frame) >> 9;
     float share = max(kFreshShare / float(cachedWeight(face.light) + 1u), 1.0) *
                   ((mark & kFaceSeen) != 0u ? kSeenShare : 1.0);
     precise float place = (float(random) + 0.5) / (8388608.0 * share);

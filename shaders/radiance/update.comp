@@ -53,7 +53,8 @@ void main()
     FaceState state = loadFaceState(slot);
     uint mark = markAfter(state.mark, number);
     vec3 sampled = params.radiance.data[i];
-    vec3 thresholds = thresholdsOf(hashPair(hashPair(key.y, key.x), params.frame));
+    uvec2 seeds = seedsOfFace(key);
+    vec3 thresholds = thresholdsOf(hashPair(hashPair(seeds.y, seeds.x), params.frame));
 
     uint before = cachedWeight(state.own);
     uint count = before + 1u;

@@ -46,7 +46,8 @@ void main()
     params.sums.data[index] = BrickSum(uvec3(0u), 0u, 0, 0);
     CachedFace face = loadFace(slot);
     uvec2 own = params.states.data[slot].own;
-    uint random = hashPair(hashPair(face.key.y, face.key.x), params.frame);
+    uvec2 seeds = seedsOfFace(face.key);
+    uint random = hashPair(hashPair(seeds.y, seeds.x), params.frame);
     params.states.data[slot] = FaceState(params.frame & kMarkFrames, 0u, spreadAfter(own, sum, random));
     uint added = sum.counts & (kSumOfMove - 1u);
     if (added == 0u)

@@ -211,7 +211,7 @@ TEST_F(ApiRadianceCache, IsThatOfTheEngineOfOctreesAndDags)
         EXPECT_EQ(light.stats().refused, 0U);
         EXPECT_GT(light.stats().room, expected.size());
         EXPECT_FALSE(light.stats().is_crowded);
-        EXPECT_GT(light.bytes(), expected.size() * 47);
+        EXPECT_GT(light.bytes(), expected.size() * 35);
     }
 }
 

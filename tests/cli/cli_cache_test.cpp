@@ -89,7 +89,7 @@ TEST_F(CliCache, ReportsWhatIsCached)
     EXPECT_EQ(cached["faces_refused"], 0);
     EXPECT_EQ(cached["crowded"], false);
     EXPECT_GE(cached["room"], cached["faces"]);
-    EXPECT_GT(cached["bytes"], 47 * cached["room"].get<int>());
+    EXPECT_GT(cached["bytes"], 35 * cached["room"].get<int>());
     EXPECT_EQ(radiance("picture.exr").front(), glm::vec3(0.5F)) << "the sky";
 }
 

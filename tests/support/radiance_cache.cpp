@@ -25,16 +25,16 @@ std::map<FaceName, FaceLight> facesOf(std::span<const gpu::CachedFace> table, st
         {
             continue;
         }
-        const std::uint64_t key = (kept.key.x & 0x7FFFFFFFU) | (std::uint64_t{kept.key.y & 0x7FFFFFFFU} << 31);
+        const std::uint64_t key = (kept.key.x & 0x7FFFFFFU) | (std::uint64_t{kept.key.y} << 27);
         const auto bits = [](std::uint64_t word, std::uint32_t first, std::uint32_t count)
         { return static_cast<std::uint32_t>((word >> first) & ((std::uint64_t{1} << count) - 1)); };
-        if (bits(key, 57, 5) != level)
+        if (bits(key, 57, 2) != level)
         {
             continue;
         }
         const std::uint64_t light = kept.light.x | (std::uint64_t{kept.light.y} << 32);
         const double unit = std::ldexp(1.0, static_cast<int>(bits(light, 48, 6)) - 37);
-        const FaceName name = {{bits(key, 0, 18), bits(key, 18, 18), bits(key, 36, 18)}, bits(key, 54, 3)};
+        const FaceName name = {{bits(key, 0, 18), bits(key, 18, 18), bits(key, 36, 18)}, bits(key, 54, 3) - 1};
         const FaceLight face = {unit * glm::dvec3(bits(light, 0, 16), bits(light, 16, 16), bits(light, 32, 16)),
                                 bits(light, 54, 10),
                                 {kept.light.x, kept.light.y}};

@@ -29,18 +29,19 @@ constexpr std::uint64_t kFacesOfVoxel = 3;
 constexpr std::uint64_t kFacesAtLeast = 64;
 
 // Slots for each face and brick that a table has room for.
-constexpr double kSlotsOfFace = 1.5;
+constexpr double kSlotsOfFace = 1.125;
 
-// A table with room for kEase times the faces and bricks takes few loads a lookup. So it grows, where it may, to
-// kGrowth times that.
-constexpr std::uint64_t kEase = 2;
-constexpr double kGrowth = 1.25;
+// A table that may grow does so while it has room for fewer than kEase times its faces and bricks, to kGrowth times
+// that: what rays find until the host learns of it has room, too.
+constexpr double kEase = 1.125;
+constexpr double kGrowth = 1.125;
 
 // The runs of a table with room for so many faces and bricks.
 std::uint64_t runsFor(double face_count)
 {
     constexpr double kSlotsMax = gpu::kFaceSlotsMax - gpu::kFaceRun;
-    return static_cast<std::uint64_t>(std::min(face_count * kSlotsOfFace, kSlotsMax)) / gpu::kFaceRun + 1;
+    const auto slots = static_cast<std::uint64_t>(std::min(face_count * kSlotsOfFace, kSlotsMax));
+    return std::max<std::uint64_t>(slots / gpu::kFaceRun + 1, gpu::kFaceRunsMin);
 }
 
 // Whether a frame is one of the `count` ones from `since` on.
@@ -148,9 +149,11 @@ void DeviceRadianceCache::makeRoom(vk::FrameGraph& graph, std::uint32_t frame)
                    moveFaces(graph, move, m_table->run_count, kEvictAge);
     if (is_counted && !is_done)
     {
-        const bool is_slow = is_short || kEase * needed > room();
-        is_done = is_slow && (grow(graph, move, kEase * needed) || (is_short && grow(graph, move, needed)));
-        m_course.is_crowded = is_slow && !is_done;
+        const double eased = kEase * static_cast<double>(needed);
+        const bool is_narrow = is_short || eased > static_cast<double>(room());
+        is_done = is_narrow &&
+                  (grow(graph, move, eased) || (is_short && grow(graph, move, static_cast<double>(needed))));
+        m_course.is_crowded = is_narrow && !is_done;
     }
     if (is_short && !is_done && frame - m_course.table_frame >= kCrowdedAge)
     {
@@ -166,11 +169,11 @@ void DeviceRadianceCache::makeRoom(vk::FrameGraph& graph, std::uint32_t frame)
     }
 }
 
-// Records the passes that move faces into a larger table, with room for a quarter more than is needed, if there may be
+// Records the passes that move faces into a larger table, with room for kGrowth times what is needed, if there may be
 // one.
-bool DeviceRadianceCache::grow(vk::FrameGraph& graph, const Move& move, std::uint64_t needed)
+bool DeviceRadianceCache::grow(vk::FrameGraph& graph, const Move& move, double needed)
 {
-    const double larger = kGrowth * static_cast<double>(std::max(needed, room()));
+    const double larger = kGrowth * std::max(needed, static_cast<double>(room()));
     const std::uint64_t runs = runsFor(std::min(larger, static_cast<double>(m_room_at_most)));
     return runs > m_table->run_count && moveFaces(graph, move, runs, gpu::kMarkFrames);
 }

@@ -132,7 +132,7 @@ private:
     void beginAnew();
     void follow(const DeviceTree& tree, const DeviceEnvironment& environment);
     void makeRoom(vk::FrameGraph& graph, std::uint32_t frame);
-    bool grow(vk::FrameGraph& graph, const Move& move, std::uint64_t needed);
+    bool grow(vk::FrameGraph& graph, const Move& move, double needed);
     bool moveFaces(vk::FrameGraph& graph, const Move& move, std::uint64_t runs, std::uint32_t age_max);
     void recordMove(vk::FrameGraph& graph, const Move& move, RadianceTable& to, std::uint32_t age_max);
     void report(vk::FrameGraph& graph, std::uint32_t frame_count);
