@@ -66,9 +66,9 @@ public:
     /// sees by itself. In another grid than that of the last call, all begins anew; so it does after a call that failed
     /// or whose frame was lost. The environment must live for as long as shaders read.
     ///
-    /// Memory, from the first call on: 48 bytes for each face and brick that there is room for, at first for what a
+    /// Memory, from the first call on: 36 bytes for each face and brick that there is room for, at first for what a
     /// frame may find. When rays find more, faces make room, or what moves has left some, faces move into another
-    /// table, and both are there for a frame. Besides, about 270 bytes for each of the rays, and what
+    /// table, and both are there for a frame. Besides, about 200 bytes for each of the rays, and what
     /// Tracer::tracePaths() takes for lights of the tree. First stages: ALL_TRANSFER, COMPUTE_SHADER and DRAW_INDIRECT;
     /// last stages: COMPUTE_SHADER and ALL_TRANSFER; on resources of zvo. Before the host's shaders read:
     /// Recorder::makeVisible(); before the next call: readers of its Recorder. Cost: the camera's rays, and up to two

@@ -19,7 +19,7 @@ void main()
     uint i = threadIndex();
     if (i >= listLength(params.bounce, kListEmitters))
         return;
-    uint path = params.numbers.data[kListEmitters * params.batch + i];
+    uint path = params.numbers.data[i];
     PathState state = loadState(params.states, path);
     params.radiance.data[state.slot] += lightOfHit(state, loadRay(params.rays, path), loadHit(params.hits, path));
 }

@@ -19,7 +19,7 @@ void main()
     uint i = threadIndex();
     uint length = listLength(params.bounce, kListMapLights);
     bool exists = i < length;
-    uint path = params.numbers.data[kListMapLights * params.batch + min(i, length - 1u)];
+    uint path = params.numbers.data[min(i, length - 1u)];
     PathState state = loadState(params.states, path);
     vec3 origin = loadRay(params.rays, path).origin;
     ChosenDirection chosen = chooseMapLight(state, params.bounce);

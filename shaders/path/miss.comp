@@ -18,7 +18,7 @@ void main()
     uint i = threadIndex();
     if (i >= listLength(params.bounce, kListMisses))
         return;
-    uint path = params.numbers.data[kListMisses * params.batch + i];
+    uint path = params.numbers.data[i];
     PathState state = loadState(params.states, path);
     params.radiance.data[state.slot] += lightOfMiss(state, loadRay(params.rays, path));
 }

@@ -79,11 +79,11 @@ const uint kNoTarget = ~0u; // in both words
 // The lists of a bounce. Workgroups for each stand in a buffer of DispatchArgs, kListElements for a bounce; behind them
 // stand the lists' lengths, a word each.
 const uint kListPaths = 0u;       // of rays and states
-const uint kListMisses = 1u;      // this and the next: numbers of paths in the list above
-const uint kListEmitters = 2u;    // paths that have hit an emissive voxel
-const uint kListMapLights = 3u;   // this and the next: numbers of paths in the next bounce's list
-const uint kListVoxelLights = 4u; // map (or sun) and voxels: what light is looked for
-const uint kListShadows = 5u;     // of shadow rays
+const uint kListMapLights = 1u;   // this and the next: numbers of paths in the next bounce's list
+const uint kListVoxelLights = 2u; // map (or sun) and voxels: what light is looked for
+const uint kListShadows = 3u;     // of shadow rays
+const uint kListMisses = 4u;      // this and the next: numbers of paths in the first list
+const uint kListEmitters = 5u;    // paths that have hit an emissive voxel
 const uint kListCount = 6u;
 const uint kListLengths = 6u;  // element where the lengths begin
 const uint kListElements = 8u; // of a bounce
@@ -155,10 +155,9 @@ struct PathLightParams
     GPU_PTR(ShadowState) shadow_states;
     GPU_PTR(vec3) radiance; // path/miss and path/emitter only
     GPU_PTR(DispatchArgs) lists;
-    GPU_CONST_PTR(uint) numbers;
+    GPU_CONST_PTR(uint) numbers; // of the list
     uint bounce;
     uint sample_index;
-    uint batch;
 };
 #define PATH_MISS_CONSTANTS(CONSTANT)                                                                                  \
     CONSTANT(0, LightSampling, sampling, kSampling, kSampleBoth) /* how light is found */                              \

@@ -19,7 +19,7 @@ void main()
     uint i = threadIndex();
     uint length = listLength(params.bounce, kListVoxelLights);
     bool exists = i < length;
-    uint path = params.numbers.data[kListVoxelLights * params.batch + min(i, length - 1u)];
+    uint path = params.numbers.data[min(i, length - 1u)];
     PathState state = loadState(params.states, path);
     vec3 origin = loadRay(params.rays, path).origin;
     ChosenDirection chosen = chooseVoxelLight(state, origin, params.bounce);

@@ -1,6 +1,6 @@
 #version 460
 // SPDX-License-Identifier: MIT
-// Starts a path from a random point of each face that the frame samples, and lists the bricks around these faces.
+// Starts a path from a random point of each face that the frame samples.
 #extension GL_GOOGLE_include_directive : require
 #include "radiance/radiance.h"
 
@@ -17,11 +17,9 @@ layout(local_size_x = kRadianceGroup) in;
 const bool kSmooth = false; // light goes from face to face
 
 #define FACES_BINDING 0
-#define STATES_BINDING 1
 #include "path/lists.glsl"
 #include "path/next_ray.glsl"
 #include "radiance/cached_face.glsl"
-#include "radiance/list_faces.glsl"
 
 void main()
 {
@@ -49,6 +47,5 @@ void main()
         params.radiance.data[path] = vec3(0.0);
     }
 
-    listBrick(params.bricks, params.batch, cell, face_normal, 1u, exists);
     listChosen(params.numbers, params.batch, next, path, 0u);
 }

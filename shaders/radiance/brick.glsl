@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Bricks (radiance/radiance.h): sums of their samples, which are integers, so that the order of threads does not
 // matter; and how much of the light that a face shows is that of the brick around it.
-// Needs params.sums.
 //
 // A face's mean of n samples is off by the samples' variance s over n. The light of the brick is off by the variance t
 // between its faces. So the best mean of both gives the face's own light a weight of n, and the brick's one of s / t
@@ -27,14 +26,14 @@ float stepOfBrick(uvec2 light)
 }
 
 // Adds the light of a sample, rounded at random: thresholds as in radiance/cached_face.glsl. counts: as in BrickSum.
-void addLight(uint index, float unit, vec3 radiance, vec3 thresholds, uint counts)
+void addLight(BrickSum_Ptr sums, uint index, float unit, vec3 radiance, vec3 thresholds, uint counts)
 {
     precise vec3 scaled = min(radiance / unit, vec3(kSumMost));
     uvec3 light = uvec3(scaled + thresholds);
-    atomicAdd(params.sums.data[index].light.x, light.x);
-    atomicAdd(params.sums.data[index].light.y, light.y);
-    atomicAdd(params.sums.data[index].light.z, light.z);
-    atomicAdd(params.sums.data[index].counts, counts);
+    atomicAdd(sums.data[index].light.x, light.x);
+    atomicAdd(sums.data[index].light.y, light.y);
+    atomicAdd(sums.data[index].light.z, light.z);
+    atomicAdd(sums.data[index].counts, counts);
 }
 
 const uint kSumOfSample = 1u;
@@ -61,13 +60,13 @@ BrickSpread spreadOf(float sampled, float face, float brick)
 const float kSpreadMost = 512.0; // of a sample
 
 // Adds the spread of a sample to the sums of a brick, rounded at random by two numbers in [0, 1).
-void addSpread(uint index, BrickSpread spread, vec2 thresholds)
+void addSpread(BrickSum_Ptr sums, uint index, BrickSpread spread, vec2 thresholds)
 {
     vec2 bounded = clamp(vec2(spread.total, spread.between), -kSpreadMost, kSpreadMost);
     precise vec2 scaled = bounded * float(1u << kSpreadShift) + thresholds;
     ivec2 rounded = ivec2(floor(scaled));
-    atomicAdd(params.sums.data[index].total, rounded.x);
-    atomicAdd(params.sums.data[index].between, rounded.y);
+    atomicAdd(sums.data[index].total, rounded.x);
+    atomicAdd(sums.data[index].between, rounded.y);
 }
 
 // The spread of few samples is uncertain: that of so many of a usual brick counts, too.

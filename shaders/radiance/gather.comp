@@ -38,13 +38,13 @@ void main()
 
     uint miss = appendTo(ray, kListMisses, exists && !hits);
     if (exists && !hits)
-        params.numbers.data[kListMisses * params.batch + miss] = i;
+        params.numbers.data[kListMapLights * params.batch + miss] = i; // whose numbers are not needed any more
     if (kEmission)
     {
         bool emits = hits && isEmissive(params.emission_words, hits ? hit.index : 0u);
         uint emitter = appendTo(ray, kListEmitters, emits);
         if (emits)
-            params.numbers.data[kListEmitters * params.batch + emitter] = i;
+            params.numbers.data[kListVoxelLights * params.batch + emitter] = i;
     }
 
     if (!kEnds && hits && hit.index >= params.first_moving)

@@ -10,9 +10,9 @@
 #include "radiance/cached_face.glsl"
 #include "radiance/radiance.h"
 
-// Puts a brick into the table and into the list of its level, unless it is there. bricks: the lists, of `batch` bricks
-// each. cell: in the brick, of the level below. All threads of a subgroup call this together.
-void listBrick(uint_Ptr bricks, uint batch, uvec3 cell, uint normal, uint level, bool exists)
+// Puts a brick into the table and into the list of its level, unless it is there. cell: in the brick, of the level
+// below. All threads of a subgroup call this together.
+void listBrick(uint_Ptr bricks, uvec3 cell, uint normal, uint level, bool exists)
 {
     uint slot = kNoFace;
     if (exists)
@@ -23,8 +23,8 @@ void listBrick(uint_Ptr bricks, uint batch, uvec3 cell, uint normal, uint level,
     uint i = appendTo(kFirstBricks + level - 1u, kListPaths, is_new);
     if (is_new)
     {
-        bricks.data[(level - 1u) * batch + i] = slot;
-        params.states.data[slot].recent = ((level - 1u) & 1u) * batch + i; // where the sum is
+        bricks.data[i] = slot;
+        params.states.data[slot].recent = i; // where the sum is
     }
 }
 

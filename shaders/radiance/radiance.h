@@ -31,12 +31,12 @@
 //   radiance/request   faces that the camera sees: into the table, and into the frame's list
 //   radiance/count     counts the faces of the list by their rank; its last threads find the rank that the budget ends
 //   radiance/select    lists the faces of a lower rank
-//   radiance/begin     a path from each of them; the brick of level 1 around it: into table and list
-//   radiance/surround  the bricks of a level around those of the one before that are listed: into table and list
+//   radiance/begin     a path from each of them
 //     path/map_light, path/voxel_light, trace/rays, path/connect      light that was chosen
 //     trace/rays, radiance/gather            what the paths hit, and the cached light there
 //     path/miss, path/emitter                light that they have met
 //   radiance/extend    paths that have hit a face without light; for their second rays, the same passes again
+//   radiance/surround  the bricks of a level around these faces, or the bricks of the level before: into table and list
 //   radiance/update    adds the samples to the means of faces, and to the sums of bricks of level 1
 //   radiance/update_bricks   adds the sums to the means of bricks of a level, and to the sums of the next level
 //   radiance/evict     into a larger table, or without faces that no ray has hit for long; only where there is little
@@ -191,19 +191,15 @@ GPU_KERNEL(radiance, select, Select, RadianceSelectParams, GPU_NO_CONSTANTS)
 
 struct RadianceBeginParams // push constants of radiance/begin: a thread a path
 {
-    GPU_PTR(CachedFace) faces;
-    GPU_PTR(FaceState) states;
-    GPU_PTR(RadianceCounters) counters;
+    GPU_CONST_PTR(CachedFace) faces;
     GPU_CONST_PTR(vec2) gives;            // [kNormals] as Environment::gives
     GPU_CONST_PTR(LightNode) light_nodes; // kEmission only
     GPU_PTR(DispatchArgs) lists;
-    GPU_PTR(uint) numbers; // [kListCount][batch] as in PathShadeParams; of kListPaths, the first list: slots
+    GPU_PTR(uint) numbers; // [kListMisses][batch] as in PathBatch; of kListPaths, the first list: slots
     GPU_PTR(Ray) rays;
     GPU_PTR(PathState) path_states;
     GPU_PTR(vec3) radiance; // [batch]
-    GPU_PTR(uint) bricks;   // [kBrickLevels][batch] slots
     uint batch;
-    uint run_count;
     uint sample_index;
     uint seed;
 };
@@ -212,14 +208,15 @@ struct RadianceBeginParams // push constants of radiance/begin: a thread a path
     CONSTANT(1, bool, emission, kEmission, false) /* there are emissive voxels */
 GPU_KERNEL(radiance, begin, Begin, RadianceBeginParams, RADIANCE_BEGIN_CONSTANTS)
 
-struct RadianceSurroundParams // push constants of radiance/surround: a thread a listed brick of a level
+struct RadianceSurroundParams // push constants of radiance/surround: a thread a listed face, or brick
 {
     GPU_PTR(CachedFace) faces;
     GPU_PTR(FaceState) states;
     GPU_PTR(RadianceCounters) counters;
     GPU_PTR(DispatchArgs) lists;
-    GPU_PTR(uint) bricks;
-    uint batch;
+    GPU_CONST_PTR(uint) slots; // as in PathBatch::numbers, of the first list; or of bricks of the level before
+    GPU_PTR(uint) bricks;      // of the level
+    uint of;                   // the list of slots, as a bounce
     uint run_count;
     uint level;
 };
@@ -263,7 +260,7 @@ struct RadianceExtendParams // push constants of radiance/extend: a thread a pat
     GPU_PTR(Ray) next_rays; // [batch] second ones, like the next
     GPU_PTR(PathState) next_states;
     GPU_PTR(DispatchArgs) lists;
-    GPU_PTR(uint) numbers;  // [kListCount][batch] as in RadianceGatherParams
+    GPU_PTR(uint) numbers;  // as in RadianceGatherParams
     GPU_PTR(vec3) radiance; // [batch]
     uint batch;
     uint run_count;
@@ -282,8 +279,7 @@ struct RadianceUpdateParams // push constants of radiance/update: a thread a pat
     GPU_CONST_PTR(uint) numbers;
     GPU_CONST_PTR(vec3) radiance;
     GPU_PTR(DispatchArgs) lists;
-    GPU_PTR(BrickSum) sums; // [2][batch] of a level and of the next, by (level - 1) & 1
-    uint batch;
+    GPU_PTR(BrickSum) sums; // of level 1
     uint run_count;
     uint frame;
     uint window;         // the most samples that the mean's weight counts, at least 1 and at most kCachedWeightMax
@@ -296,10 +292,10 @@ struct RadianceUpdateBricksParams // push constants of radiance/update_bricks: a
 {
     GPU_PTR(CachedFace) faces;
     GPU_PTR(FaceState) states;
-    GPU_CONST_PTR(uint) bricks;
+    GPU_CONST_PTR(uint) bricks; // of the level
     GPU_PTR(DispatchArgs) lists;
     GPU_PTR(BrickSum) sums;
-    uint batch;
+    GPU_PTR(BrickSum) outer_sums; // of the next level
     uint run_count;
     uint frame;
     uint level;

@@ -1,6 +1,6 @@
 #version 460
 // SPDX-License-Identifier: MIT
-// Lists the bricks of a level around the listed ones of the level before.
+// Lists the bricks of a level around the faces that the frame samples, or around the listed bricks of the level before.
 #extension GL_GOOGLE_include_directive : require
 #include "radiance/radiance.h"
 
@@ -17,9 +17,9 @@ layout(local_size_x = kRadianceGroup) in;
 void main()
 {
     uint i = threadIndex();
-    uint length = listLength(kFirstBricks + params.level - 2u, kListPaths);
+    uint length = listLength(params.of, kListPaths);
     bool exists = i < length;
-    uint slot = params.bricks.data[(params.level - 2u) * params.batch + min(i, length - 1u)];
+    uint slot = params.slots.data[min(i, length - 1u)] & (kFaceSlotsMax - 1u);
     uvec2 key = loadFace(slot).key;
-    listBrick(params.bricks, params.batch, cellOfFace(key), normalOfFace(key), params.level, exists);
+    listBrick(params.bricks, cellOfFace(key), normalOfFace(key), params.level, exists);
 }

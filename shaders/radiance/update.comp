@@ -83,9 +83,9 @@ void main()
         bool is_spread = sum.w > 0.0 && before != 0u;
         uint counts = kSumOfSample + (touched && params.touched_window < params.window ? kSumOfMove : 0u) +
                       (is_spread ? kSumOfSpread : 0u);
-        addLight(state_of_brick.recent, stepOfBrick(around.light), sampled, thresholds, counts);
+        addLight(params.sums, state_of_brick.recent, stepOfBrick(around.light), sampled, thresholds, counts);
         if (is_spread)
-            addSpread(state_of_brick.recent, spread, thresholds.xy);
+            addSpread(params.sums, state_of_brick.recent, spread, thresholds.xy);
     }
     precise vec3 shown = mix(own, brick_light, sum.w > 0.0 ? shareOfBrick(float(weight), brick_samples) : 0.0);
 

@@ -40,10 +40,9 @@ void main()
     uint i = threadIndex();
     if (i >= listLength(kFirstBricks + params.level - 1u, kListPaths))
         return;
-    uint index = ((params.level - 1u) & 1u) * params.batch + i;
-    uint slot = params.bricks.data[(params.level - 1u) * params.batch + i];
-    BrickSum sum = params.sums.data[index];
-    params.sums.data[index] = BrickSum(uvec3(0u), 0u, 0, 0);
+    uint slot = params.bricks.data[i];
+    BrickSum sum = params.sums.data[i];
+    params.sums.data[i] = BrickSum(uvec3(0u), 0u, 0, 0);
     CachedFace face = loadFace(slot);
     uvec2 own = params.states.data[slot].own;
     uvec2 seeds = seedsOfFace(face.key);
@@ -65,7 +64,7 @@ void main()
         CachedFace around;
         uint outer = findFace(cellOfFace(face.key) >> 2, normalOfFace(face.key), params.level + 1u, around);
         if (outer != kNoFace)
-            addLight(params.states.data[outer].recent, stepOfBrick(around.light), sampled, thresholds,
+            addLight(params.outer_sums, params.states.data[outer].recent, stepOfBrick(around.light), sampled, thresholds,
                      kSumOfSample + (moved != 0u ? kSumOfMove : 0u));
     }
 }

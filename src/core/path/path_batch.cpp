@@ -26,11 +26,16 @@ void takeList(vk::FrameGraph& graph, const Kernel& kernel, std::uint32_t list, c
     params.shadow_states = batch.useShadowStates(pass, paths);
     params.radiance = pass.readWrite(batch.radiance);
     params.lists = pass.readWrite(batch.lists);
-    params.numbers = pass.read(batch.numbers);
+    params.numbers = {pass.read(batch.numbers).address + batch.firstNumber(list) * sizeof(gpu::uint)};
     params.bounce = bounce;
     params.sample_index = light.sample_index;
-    params.batch = static_cast<std::uint32_t>(batch.capacity());
     pass.dispatchIndirect(batch.lists, listArgs(bounce, list), params, divideUp(light.path_count, gpu::kPathGroup));
+}
+
+// The lists of numbers that have elements of their own.
+std::uint64_t listsOf(bool shares)
+{
+    return shares ? gpu::kListMisses : gpu::kListCount;
 }
 
 } // namespace
@@ -54,7 +59,7 @@ PathBatch::PathBatch(vk::Device& device, std::uint64_t path_count, bool shares, 
         shadow_states = {device, "path/shadow_states", path_count};
     }
     radiance = {device, "path/radiance", path_count};
-    numbers = {device, "path/numbers", gpu::kListCount * path_count};
+    numbers = {device, "path/numbers", listsOf(shares) * path_count};
     rounds = {device, "path/rounds", gpu::kTraceRoundsMax};
 }
 
@@ -62,7 +67,14 @@ std::uint64_t PathBatch::bytesFor(std::uint64_t path_count, bool shares)
 {
     return path_count *
            (2 * (sizeof(gpu::Ray) + sizeof(gpu::PathState)) + sizeof(gpu::Hit) + sizeof(gpu::vec3) +
-            gpu::kListCount * sizeof(gpu::uint) + (shares ? 0 : sizeof(gpu::Ray) + sizeof(gpu::ShadowState)));
+            listsOf(shares) * sizeof(gpu::uint) + (shares ? 0 : sizeof(gpu::Ray) + sizeof(gpu::ShadowState)));
+}
+
+std::uint64_t PathBatch::firstNumber(std::uint32_t list) const
+{
+    return capacity() * (numbers.count() == listsOf(true) * capacity() && list >= gpu::kListMisses
+                             ? list - gpu::kListMisses + gpu::kListMapLights
+                             : list);
 }
 
 std::uint64_t PathBatch::bytes() const

@@ -29,7 +29,8 @@ struct PathBatch
 {
     PathBatch() = default;
 
-    /// For paths in two lists. shares: the shadow rays of one take the place of the other's paths. set_count: of lists.
+    /// For paths in two lists. shares: the shadow rays of one take the place of the other's paths, and lists of what
+    /// paths have met that of the lights which they have looked for before. set_count: of lists.
     /// Of no paths, only these are made.
     PathBatch(vk::Device& device, std::uint64_t path_count, bool shares, std::uint32_t set_count);
 
@@ -47,6 +48,9 @@ struct PathBatch
                                           : pass.readWrite(shadow_states);
     }
 
+    /// The element of numbers where a list of them begins.
+    [[nodiscard]] std::uint64_t firstNumber(std::uint32_t list) const;
+
     [[nodiscard]] std::uint64_t capacity() const { return radiance.count(); }
     [[nodiscard]] std::uint64_t bytes() const;
 
@@ -56,7 +60,7 @@ struct PathBatch
     vk::BufferOf<gpu::Ray> shadow_rays;                 // [capacity] unless they are shared, like the next
     vk::BufferOf<gpu::ShadowState> shadow_states;       // [capacity]
     vk::BufferOf<gpu::vec3> radiance;                   // [capacity] by slots
-    vk::BufferOf<gpu::uint> numbers;                    // [kListCount][capacity]
+    vk::BufferOf<gpu::uint> numbers;                    // [kListCount][capacity], or [kListMisses] if lists are shared
     vk::BufferOf<gpu::DispatchArgs> rounds;             // [kTraceRoundsMax]
     vk::BufferOf<gpu::DispatchArgs> lists;              // [set_count][kListElements] usually a set for a bounce
 };

@@ -151,8 +151,8 @@ void DeviceRadianceCache::makeRoom(vk::FrameGraph& graph, std::uint32_t frame)
     {
         const double eased = kEase * static_cast<double>(needed);
         const bool is_narrow = is_short || eased > static_cast<double>(room());
-        is_done = is_narrow &&
-                  (grow(graph, move, eased) || (is_short && grow(graph, move, static_cast<double>(needed))));
+        is_done =
+            is_narrow && (grow(graph, move, eased) || (is_short && grow(graph, move, static_cast<double>(needed))));
         m_course.is_crowded = is_narrow && !is_done;
     }
     if (is_short && !is_done && frame - m_course.table_frame >= kCrowdedAge)
@@ -218,14 +218,13 @@ bool DeviceRadianceCache::moveFaces(vk::FrameGraph& graph, const Move& move, std
 void DeviceRadianceCache::recordMove(vk::FrameGraph& graph, const Move& move, RadianceTable& to, std::uint32_t age_max)
 {
     graph.fill(m_lists->batch.lists, 0);
-    graph.fill(m_lists->sums, 0);
     vk::Pass pass = graph.addPass(gpu::radiance::Evict{.relists = move.keeps_lists, .in_place = &to == m_table.get()});
     pass.dispatch(m_table->faces.count(), {.faces = pass.readWrite(to.faces),
                                            .states = pass.readWrite(to.states),
                                            .counters = pass.readWrite(m_counters),
                                            .old_faces = pass.read(m_table->faces),
                                            .old_states = pass.read(m_table->states),
-                                           .wanted = pass.readWrite(m_lists->wanted.at(move.frame % 2)),
+                                           .wanted = pass.readWrite(m_lists->wanted),
                                            .lists = pass.readWrite(m_lists->batch.lists),
                                            .run_count = to.run_count,
                                            .old_slots = static_cast<std::uint32_t>(m_table->faces.count()),

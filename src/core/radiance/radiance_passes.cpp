@@ -47,7 +47,6 @@ void clear(vk::FrameGraph& graph, const RadianceFrame& frame)
         graph.fill(frame.counters, 0);
         graph.fill(frame.status, 0);
         graph.fill(batch.lists, 0);
-        graph.fill(frame.lists.sums, 0);
         return;
     }
     graph.fill(batch.lists, 0, 0, gpu::kWantedEven * kWords);
@@ -66,7 +65,7 @@ void request(vk::FrameGraph& graph, const RadianceFrame& frame)
                           {.faces = pass.readWrite(frame.table.faces),
                            .states = pass.readWrite(frame.table.states),
                            .counters = pass.readWrite(frame.counters),
-                           .wanted = pass.readWrite(frame.lists.wanted.at(frame.number % 2)),
+                           .wanted = pass.readWrite(frame.lists.wanted),
                            .lists = pass.readWrite(frame.lists.batch.lists),
                            .hits = pass.read(frame.seen.hits),
                            .live = pass.read(frame.seen.live),
@@ -87,12 +86,12 @@ void count(vk::FrameGraph& graph, const RadianceFrame& frame)
     pass.dispatchIndirect(batch.lists, listArgs(requestedList(frame.number), gpu::kListPaths),
                           {.faces = pass.read(frame.table.faces),
                            .states = pass.read(frame.table.states),
-                           .wanted = pass.read(frame.lists.wanted.at(frame.number % 2)),
+                           .wanted = pass.read(frame.lists.wanted),
                            .counters = pass.readWrite(frame.counters),
                            .lists = pass.readWrite(batch.lists),
                            .frame = frame.number,
                            .budget = frame.lists.faces},
-                          divideUp(frame.lists.wanted[0].count(), gpu::kPathGroup));
+                          divideUp(frame.lists.wanted.count(), gpu::kPathGroup));
 }
 
 void select(vk::FrameGraph& graph, const RadianceFrame& frame)
@@ -102,12 +101,12 @@ void select(vk::FrameGraph& graph, const RadianceFrame& frame)
     pass.dispatchIndirect(batch.lists, listArgs(requestedList(frame.number), gpu::kListPaths),
                           {.faces = pass.read(frame.table.faces),
                            .states = pass.readWrite(frame.table.states),
-                           .wanted = pass.read(frame.lists.wanted.at(frame.number % 2)),
+                           .wanted = pass.read(frame.lists.wanted),
                            .counters = pass.read(frame.counters),
                            .lists = pass.readWrite(batch.lists),
                            .numbers = pass.readWrite(batch.numbers),
                            .frame = frame.number},
-                          divideUp(frame.lists.wanted[0].count(), gpu::kPathGroup));
+                          divideUp(frame.lists.wanted.count(), gpu::kPathGroup));
 }
 
 void begin(vk::FrameGraph& graph, const RadianceFrame& frame)
@@ -116,9 +115,7 @@ void begin(vk::FrameGraph& graph, const RadianceFrame& frame)
     const bool emits = hasEmission(frame.tree);
     vk::Pass pass = graph.addPass(gpu::radiance::Begin{.node_levels = frame.tree.grid.nodeLevels(), .emission = emits});
     pass.dispatchIndirect(batch.lists, listArgs(0, gpu::kListPaths),
-                          {.faces = pass.readWrite(frame.table.faces),
-                           .states = pass.readWrite(frame.table.states),
-                           .counters = pass.readWrite(frame.counters),
+                          {.faces = pass.read(frame.table.faces),
                            .gives = pass.read(frame.environment.gives()),
                            .light_nodes = emits ? pass.read(frame.lights.nodes()) : gpu::ConstPtr<gpu::LightNode>{},
                            .lists = pass.readWrite(batch.lists),
@@ -126,28 +123,42 @@ void begin(vk::FrameGraph& graph, const RadianceFrame& frame)
                            .rays = pass.readWrite(batch.rays[0]),
                            .path_states = pass.readWrite(batch.states[0]),
                            .radiance = pass.readWrite(batch.radiance),
-                           .bricks = pass.readWrite(frame.lists.bricks),
                            .batch = static_cast<std::uint32_t>(batch.capacity()),
-                           .run_count = frame.table.run_count,
                            .sample_index = frame.number,
                            .seed = frame.seed},
                           divideUp(frame.lists.faces, gpu::kPathGroup));
 }
 
+// Bricks are listed when paths have ended: lists of them take the place of hits, their sums that of rays.
+gpu::Ptr<gpu::uint> bricksOf(vk::AnyPass& pass, PathBatch& batch, std::uint32_t level)
+{
+    static_assert(gpu::kBrickLevels * sizeof(gpu::uint) <= sizeof(gpu::Hit));
+    return {pass.readWrite(batch.hits).address + (level - 1) * batch.capacity() * sizeof(gpu::uint)};
+}
+
+gpu::Ptr<gpu::BrickSum> brickSums(vk::AnyPass& pass, PathBatch& batch, std::uint32_t level)
+{
+    static_assert(sizeof(gpu::BrickSum) <= sizeof(gpu::Ray));
+    return {pass.readWrite(batch.rays.at((level - 1) % 2)).address};
+}
+
 void surround(vk::FrameGraph& graph, const RadianceFrame& frame, std::uint32_t level)
 {
     PathBatch& batch = frame.lists.batch;
+    const std::uint32_t of = level == 1 ? 0 : gpu::kFirstBricks + level - 2;
     vk::Pass pass = graph.addPass(gpu::radiance::Surround{});
-    pass.dispatchIndirect(batch.lists, listArgs(gpu::kFirstBricks + level - 2, gpu::kListPaths),
-                          {.faces = pass.readWrite(frame.table.faces),
-                           .states = pass.readWrite(frame.table.states),
-                           .counters = pass.readWrite(frame.counters),
-                           .lists = pass.readWrite(batch.lists),
-                           .bricks = pass.readWrite(frame.lists.bricks),
-                           .batch = static_cast<std::uint32_t>(batch.capacity()),
-                           .run_count = frame.table.run_count,
-                           .level = level},
-                          divideUp(frame.lists.faces, gpu::kPathGroup));
+    pass.dispatchIndirect(
+        batch.lists, listArgs(of, gpu::kListPaths),
+        {.faces = pass.readWrite(frame.table.faces),
+         .states = pass.readWrite(frame.table.states),
+         .counters = pass.readWrite(frame.counters),
+         .lists = pass.readWrite(batch.lists),
+         .slots = {level == 1 ? pass.read(batch.numbers).address : bricksOf(pass, batch, level - 1).address},
+         .bricks = bricksOf(pass, batch, level),
+         .of = of,
+         .run_count = frame.table.run_count,
+         .level = level},
+        divideUp(frame.lists.faces, gpu::kPathGroup));
 }
 
 // ray: of the paths, 0 or 1.
@@ -161,7 +172,7 @@ void gather(vk::FrameGraph& graph, const RadianceFrame& frame, std::uint32_t ray
     params.faces = pass.readWrite(frame.table.faces);
     params.states = pass.readWrite(frame.table.states);
     params.counters = pass.readWrite(frame.counters);
-    params.wanted = pass.readWrite(frame.lists.wanted.at((frame.number + 1) % 2));
+    params.wanted = pass.readWrite(frame.lists.wanted);
     params.lists = pass.readWrite(batch.lists);
     params.numbers = pass.readWrite(batch.numbers);
     params.attributes = readVoxelAttributes(pass, frame.tree);
@@ -218,8 +229,7 @@ void update(vk::FrameGraph& graph, const RadianceFrame& frame)
                            .numbers = pass.read(batch.numbers),
                            .radiance = pass.read(batch.radiance),
                            .lists = pass.readWrite(batch.lists),
-                           .sums = pass.readWrite(frame.lists.sums),
-                           .batch = static_cast<std::uint32_t>(batch.capacity()),
+                           .sums = brickSums(pass, batch, 1),
                            .run_count = frame.table.run_count,
                            .frame = frame.number,
                            .window = window,
@@ -237,10 +247,10 @@ void updateBricks(vk::FrameGraph& graph, const RadianceFrame& frame, std::uint32
     pass.dispatchIndirect(batch.lists, listArgs(gpu::kFirstBricks + level - 1, gpu::kListPaths),
                           {.faces = pass.readWrite(frame.table.faces),
                            .states = pass.readWrite(frame.table.states),
-                           .bricks = pass.read(frame.lists.bricks),
+                           .bricks = {bricksOf(pass, batch, level).address},
                            .lists = pass.readWrite(batch.lists),
-                           .sums = pass.readWrite(frame.lists.sums),
-                           .batch = static_cast<std::uint32_t>(batch.capacity()),
+                           .sums = brickSums(pass, batch, level),
+                           .outer_sums = brickSums(pass, batch, level + 1),
                            .run_count = frame.table.run_count,
                            .frame = frame.number,
                            .level = level,
@@ -266,22 +276,14 @@ RadianceLists::RadianceLists(vk::Device& device, std::uint32_t face_count, std::
     // The camera lists a face for each pixel that takes part, and the paths of a frame one for each of their rays.
     const std::uint64_t wanted_max =
         kFaceRays * std::uint64_t{faces} + quadsOf(width, height) * requestTurns(width, height, faces);
-    const std::uint64_t brick_count = gpu::kBrickLevels * std::uint64_t{faces};
-    device.memory().require(PathBatch::bytesFor(faces, true) + (2 * wanted_max + brick_count) * sizeof(gpu::uint) +
-                                2 * faces * sizeof(gpu::BrickSum),
-                            kPurpose);
-    for (vk::BufferOf<gpu::uint>& slots : wanted)
-    {
-        slots = {device, "radiance/wanted", wanted_max};
-    }
+    device.memory().require(PathBatch::bytesFor(faces, true) + wanted_max * sizeof(gpu::uint), kPurpose);
+    wanted = {device, "radiance/wanted", wanted_max};
     batch = {device, faces, true, gpu::kFirstBricks + gpu::kBrickLevels};
-    bricks = {device, "radiance/bricks", brick_count};
-    sums = {device, "radiance/brick_sums", 2 * std::uint64_t{faces}};
 }
 
 std::uint64_t RadianceLists::bytes() const
 {
-    return wanted[0].bytes() + wanted[1].bytes() + batch.bytes() + bricks.bytes() + sums.bytes();
+    return wanted.bytes() + batch.bytes();
 }
 
 void sampleFaces(vk::FrameGraph& graph, const RadianceFrame& frame)
@@ -291,10 +293,6 @@ void sampleFaces(vk::FrameGraph& graph, const RadianceFrame& frame)
     count(graph, frame);
     select(graph, frame);
     begin(graph, frame);
-    for (std::uint32_t level = 2; level <= gpu::kBrickLevels; ++level)
-    {
-        surround(graph, frame, level);
-    }
     PathBatch& batch = frame.lists.batch;
     for (std::uint32_t ray = 0; ray < kFaceRays; ++ray)
     {
@@ -314,6 +312,14 @@ void sampleFaces(vk::FrameGraph& graph, const RadianceFrame& frame)
         tracePaths(graph, light, batch, ray, ray);
         gather(graph, frame, ray);
         addMetLight(graph, light, batch, ray, ray);
+    }
+    for (vk::BufferOf<gpu::Ray>& rays : batch.rays)
+    {
+        graph.fill(rays, 0);
+    }
+    for (std::uint32_t level = 1; level <= gpu::kBrickLevels; ++level)
+    {
+        surround(graph, frame, level);
     }
     update(graph, frame);
     for (std::uint32_t level = 1; level <= gpu::kBrickLevels; ++level)

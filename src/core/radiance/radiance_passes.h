@@ -9,7 +9,6 @@
 #include "radiance/radiance.h"
 #include "vk/frame_graph.h"
 
-#include <array>
 #include <cstdint>
 #include <optional>
 
@@ -48,16 +47,13 @@ struct RadianceLists
     [[nodiscard]] std::uint64_t bytes() const;
 
     /// Faces and bricks that a frame may put into the table.
-    [[nodiscard]] std::uint64_t insertsMax() const { return wanted[0].count() + bricks.count(); }
+    [[nodiscard]] std::uint64_t insertsMax() const { return wanted.count() + gpu::kBrickLevels * batch.capacity(); }
 
     std::uint32_t faces;
     std::uint32_t width;
     std::uint32_t height;
-    std::array<vk::BufferOf<gpu::uint>, 2>
-        wanted; // slots of even and odd frames: for all rays and pixels that list one
+    vk::BufferOf<gpu::uint> wanted; // slots: for all rays and pixels that list one
     PathBatch batch;
-    vk::BufferOf<gpu::uint> bricks;   // [kBrickLevels][faces] slots of those that are listed
-    vk::BufferOf<gpu::BrickSum> sums; // [2][faces] of a level, and of the next one; 0 between frames
 };
 
 /// What a frame that samples faces is made of.
