@@ -125,7 +125,7 @@ TEST(Capacity, SumsThatOverflowWithCapacitiesOfOneStillGiveTheSameBytes)
     const Built expected = build(scene, 4, {Coverage::Thin, true, {}});
     const Built grown = build(scene, 4, {Coverage::Thin, true, VoxelizeCapacities{1, 1, 1, 1, 1}});
     EXPECT_EQ(grown.sha, expected.sha);
-    EXPECT_GT(grown.result.retry_count, expected.result.retry_count);
+    EXPECT_GE(grown.result.retry_count, 2U) << "lists, and sums";
 }
 
 /// A whole small run on its own device under a memory limit: the digest of the octree, and a picture.
