@@ -73,6 +73,13 @@ uint tilesOf(RasterTriangle t, RasterCell cell, ivec2 column, CellBox voxels)
     return tiles;
 }
 
+// Whether a triangle is small enough for a walk over several columns (voxelize/tile_walk.glsl).
+bool areColumnsWalked(RasterTriangle t)
+{
+    ivec3 edges = max(abs(t.edge_u), max(abs(t.edge_v), abs(t.edge_w)));
+    return max(edges.x, max(edges.y, edges.z)) <= kTileExtent;
+}
+
 void binColumn(RasterTriangle t, ivec2 column, CellBox voxels, LargeBlock large)
 {
     RasterCell cell = startColumn(t, column);
@@ -85,9 +92,15 @@ void binColumn(RasterTriangle t, ivec2 column, CellBox voxels, LargeBlock large)
             if (tiles != 0u)
             {
                 uint entry = brickEntry(brickKey(uvec3(voxelOf(t, column, cell.w)), brickLevel()));
-                uint place = addItems(bitCount(tiles));
+                uint columns = areColumnsWalked(t) ? 1u : 16u; // items of a tile
+                uint place = addItems(bitCount(tiles) * columns);
                 for (; tiles != 0u; tiles &= tiles - 1u)
-                    writeItem(place++, BrickItem(large.triangle, entry), ItemVoxels(uint(findLSB(tiles)), 0u, 0u));
+                    for (uint column = 0u; column < columns; ++column)
+                    {
+                        uint info = uint(findLSB(tiles));
+                        info |= columns == 1u ? 0u : kOneColumn | (column << kItemColumnShift);
+                        writeItem(place++, BrickItem(large.triangle, entry), ItemVoxels(info, 0u, 0u));
+                    }
             }
         }
         walking = cell.w < high;

@@ -15,7 +15,11 @@ const uint kBrickLog2 = 4u;       // a brick has 16 cells along each axis
 const uint kBrickLeaves = 64u;    // leaves of a brick
 const uint kLeafMaskWords = 128u; // words of the masks of a brick's leaves
 const uint kItemColumns = 16u;    // columns of an item
-const uint kWholeBox = 16u;       // for the number of a tile: all of a small triangle's box in the brick
+
+// ItemVoxels::info until the voxels are known: the number of a tile of 4x4 columns, and what is added
+const uint kOneColumn = 16u;      // one column of the tile, of a triangle that is too large for a walk over several
+const uint kItemColumnShift = 5u; // its number, 4 bits
+const uint kWholeBox = 1u << 9;   // instead: all of a small triangle's box in the brick
 
 const uint kBlockBricksLog2 = 3u;     // rows and columns of bricks in a block of a large triangle, or more
 const uint kBlockLog2Max = 7u;        // a thread walks over a block
@@ -82,7 +86,7 @@ GPU_BUFFER(LargeBlock, 4);
 /// With conservative coverage a second one follows, of which layers_lo and layers_hi are the columns' last layers.
 struct ItemVoxels
 {
-    uint info;      // until voxelize/cover has found the voxels: the tile, or kWholeBox
+    uint info;      // until voxelize/cover has found the voxels, see kOneColumn
     uint layers_lo; // 4 bits for each column: the first voxel's layer
     uint layers_hi;
 };

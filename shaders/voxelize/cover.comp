@@ -104,7 +104,7 @@ void main()
     Voxels voxels = knownVoxels(i);
     if (!kSmall)
     {
-        voxels = coverColumns(tileTriangle(voxels.info, loadSetup(item.triangle), brickCorner(entry)));
+        voxels = coverColumns(itemTriangle(voxels.info, loadSetup(item.triangle), brickCorner(entry)));
         keepVoxels(i, voxels);
     }
     bool tests = false;

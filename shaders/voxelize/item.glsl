@@ -33,19 +33,22 @@ BrickItem loadItem(uint i)
 }
 #endif
 
-// A triangle whose box are the columns of a tile of a brick, or with kWholeBox all that it has there. brick: its first
-// voxel.
-RasterTriangle tileTriangle(uint tile, TriangleSetup setup, ivec3 brick)
+// A triangle whose box are the columns that an item's info tells (voxelize/bricks.h). brick: its first voxel.
+RasterTriangle itemTriangle(uint info, TriangleSetup setup, ivec3 brick)
 {
     ivec3 low = brick;
     ivec3 high = brick + ((1 << kBrickLog2) - 1);
     clipToWindow(low, high);
     CellBox box = voxelBox(setup, low, high);
-    if (tile != kWholeBox)
+    if (info != kWholeBox)
     {
-        ivec2 corner = (box.low.xy & ~((1 << kBrickLog2) - 1)) + 4 * ivec2(tile & 3u, tile >> 2);
+        uint tile = info & 15u;
+        uint column = info >> kItemColumnShift & 15u;
+        bool is_tile = (info & kOneColumn) == 0u;
+        ivec2 corner = (box.low.xy & ~((1 << kBrickLog2) - 1)) + 4 * ivec2(tile & 3u, tile >> 2) +
+                       ivec2(column & 3u, column >> 2);
         box.low.xy = max(box.low.xy, corner);
-        box.high.xy = min(box.high.xy, corner + 3);
+        box.high.xy = min(box.high.xy, corner + (is_tile ? 3 : 0));
     }
     return rasterTriangle(setup, box, gridResolution());
 }
@@ -57,37 +60,28 @@ uint columnCount(RasterTriangle t)
     return size.x > 0 && size.y > 0 ? uint(size.x * size.y) : 0u;
 }
 
-// The columns of t's box that thin coverage covers. Where the triangle is too large for a walk, each column begins one.
+// The columns of t's box that thin coverage covers.
 Voxels coverThin(RasterTriangle t)
 {
     Voxels voxels = noVoxels(t);
     uint width = uint(t.high.x - t.low.x + 1);
     uint end = columnCount(t);
-    uint run = areWalked(t) ? end : 1u;
-    uint column = 0u;
-    for (;;) // on software devices, a test in its head would cost the body once more
+    uint row_end = width;
+    TileCell row = startTile(t, t.low.xy);
+    TileCell cell = row;
+    for (uint column = 0u; column < end;)
     {
-        uint run_end = column + run;
-        uint y = divideSmall(column, width);
-        TileCell row = startTile(t, t.low.xy + ivec2(column - y * width, y));
-        TileCell cell = row;
-        uint row_end = width;
-        for (; column < run_end;)
+        bool covered = isCovered(t, cell);
+        voxels.info |= covered ? 1u << column : 0u;
+        voxels.layers |= layerOfColumn(column, covered ? cell.w : 0);
+        ++column;
+        nextColumn(t, cell);
+        if (column == row_end)
         {
-            bool covered = isCovered(t, cell);
-            voxels.info |= covered ? 1u << column : 0u;
-            voxels.layers |= layerOfColumn(column, covered ? cell.w : 0);
-            ++column;
-            nextColumn(t, cell);
-            if (column == row_end)
-            {
-                nextRow(t, row);
-                cell = row;
-                row_end += width;
-            }
+            nextRow(t, row);
+            cell = row;
+            row_end += width;
         }
-        if (column >= end)
-            break;
     }
     return voxels;
 }

@@ -6,7 +6,7 @@
 // edge vectors and has the same sign. In a tile an edge function moves by at most 3 columns, 3 rows and 6 layers, and
 // vw and wu by 9 edge components: for edges of up to kTileExtent = 2^26 that is less than 2^30. So a quotient that
 // begins outside of [-2^30, 2^30) keeps its sign in the tile, also when it begins at the end of that interval instead,
-// and no quotient leaves 32 bits. Triangles of larger edges have tiles of one column, in which nothing moves. A
+// and no quotient leaves 32 bits. Triangles of larger edges have items of one column, in which nothing moves. A
 // triangle of at most kSmallExtent has numbers below 2^30 in all of its columns.
 #ifndef ZVO_SHADERS_VOXELIZE_TILE_WALK_GLSL
 #define ZVO_SHADERS_VOXELIZE_TILE_WALK_GLSL
@@ -31,13 +31,6 @@ ivec3 tileEdge(i64vec3 edge)
     ivec3 quotient = ivec3(edge >> kVoxelLatticeLog2);
     quotient = mix(quotient, ivec3((1 << 30) - 1), greaterThan(beyond, ivec3(0)));
     return mix(quotient, ivec3(-(1 << 30)), lessThan(beyond, ivec3(-1)));
-}
-
-// Whether a triangle is small enough for a walk over more than one column.
-bool areWalked(RasterTriangle t)
-{
-    ivec3 edges = max(abs(t.edge_u), max(abs(t.edge_v), abs(t.edge_w)));
-    return max(edges.x, max(edges.y, edges.z)) <= kTileExtent;
 }
 
 TileCell startTile(RasterTriangle t, ivec2 column)
