@@ -154,10 +154,9 @@ std::optional<Part> TiledBuilder::buildPart(std::uint32_t depth, std::uint64_t c
 std::optional<Part> TiledBuilder::buildWhole(std::uint32_t depth, std::uint64_t code)
 {
     const auto last = m_capacities.find(depth);
-    const VoxelizeCapacities capacities =
-        last != m_capacities.end()
-            ? last->second
-            : likelyCapacities(m_scene.uploaded(), m_grid, m_options.coverage, depth);
+    const VoxelizeCapacities capacities = last != m_capacities.end()
+                                              ? last->second
+                                              : likelyCapacities(m_scene.uploaded(), m_grid, m_options.coverage, depth);
     BuildResult built = buildOctree(m_device, m_scene, {m_grid, depth, cellOfCode(code)},
                                     {m_options.coverage, hasAttributes(), capacities});
     m_capacities[depth] = built.capacities;
