@@ -80,6 +80,18 @@ bool areColumnsWalked(RasterTriangle t)
     return max(edges.x, max(edges.y, edges.z)) <= kTileExtent;
 }
 
+// Writes the items of a tile, from place on: one, or where columns are not walked, one a column. Returns the next place.
+uint writeTile(uint place, uint triangle, uint entry, uint tile, bool are_walked)
+{
+    if (are_walked)
+        writeItem(place, BrickItem(triangle, entry), ItemVoxels(tile, 0u, 0u));
+    else // no loop: software devices bound the iterations of all loops of a thread
+        [[unroll]] for (uint column = 0u; column < kItemColumns; ++column)
+            writeItem(place + column, BrickItem(triangle, entry),
+                      ItemVoxels(tile | kOneColumn | (column << kItemColumnShift), 0u, 0u));
+    return place + (are_walked ? 1u : kItemColumns);
+}
+
 void binColumn(RasterTriangle t, ivec2 column, CellBox voxels, LargeBlock large)
 {
     RasterCell cell = startColumn(t, column);
@@ -92,15 +104,10 @@ void binColumn(RasterTriangle t, ivec2 column, CellBox voxels, LargeBlock large)
             if (tiles != 0u)
             {
                 uint entry = brickEntry(brickKey(uvec3(voxelOf(t, column, cell.w)), brickLevel()));
-                uint columns = areColumnsWalked(t) ? 1u : 16u; // items of a tile
-                uint place = addItems(bitCount(tiles) * columns);
+                uint count = bitCount(tiles) * (areColumnsWalked(t) ? 1u : kItemColumns);
+                uint place = addItems(count);
                 for (; tiles != 0u; tiles &= tiles - 1u)
-                    for (uint column = 0u; column < columns; ++column)
-                    {
-                        uint info = uint(findLSB(tiles));
-                        info |= columns == 1u ? 0u : kOneColumn | (column << kItemColumnShift);
-                        writeItem(place++, BrickItem(large.triangle, entry), ItemVoxels(info, 0u, 0u));
-                    }
+                    place = writeTile(place, large.triangle, entry, uint(findLSB(tiles)), areColumnsWalked(t));
             }
         }
         walking = cell.w < high;

@@ -22,7 +22,7 @@ const uint kItemColumnShift = 5u; // its number, 4 bits
 const uint kWholeBox = 1u << 9;   // instead: all of a small triangle's box in the brick
 
 const uint kBlockBricksLog2 = 3u;     // rows and columns of bricks in a block of a large triangle, or more
-const uint kBlockLog2Max = 7u;        // a thread walks over a block
+const uint kBlockLog2Max = 6u;        // those of kBlocksMax blocks are the columns of the largest grid
 const uint kBlocksMax = 16384u;       // of a triangle: one thread lists them
 const uint kBlocksListMax = 1u << 28; // that one run may list
 const uint kBlockLog2Shift = 28u;     // of LargeBlock::block

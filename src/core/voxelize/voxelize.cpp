@@ -66,6 +66,16 @@ std::uint64_t maskWordsOf(const VoxelForm& form, std::uint64_t bricks)
     return bricks * gpu::kLeafMaskWords * (form.mixed ? 2 : 1);
 }
 
+// Threads that share a block. In deep grids blocks may have 64^2 columns of bricks, for each of which a thread runs
+// some dozens of iterations; software devices stop loops silently at 65,535.
+std::uint32_t blockLanes(const vk::Device& device, const Grid& grid)
+{
+    constexpr std::uint32_t kDepthOfLargeBlocks = 16;
+    constexpr std::uint32_t kLanesOfLargeBlocks = 16;
+    const std::uint32_t tuned = tunedValue(device, Tunable::BlockLanes);
+    return grid.depth < kDepthOfLargeBlocks ? tuned : std::max(tuned, kLanesOfLargeBlocks);
+}
+
 std::uint32_t count32(const auto& buffer)
 {
     return static_cast<std::uint32_t>(buffer.count());
@@ -81,7 +91,7 @@ void binChunks(vk::FrameGraph& graph, const VoxelizeJob& job, MaterialClass mate
     vk::Pass pass =
         graph.addPass(gpu::voxelize::Bin{.wide_keys = hasWideKeys(grid),
                                          .single = single,
-                                         .block_lanes = tunedValue(graph.device(), Tunable::BlockLanes),
+                                         .block_lanes = blockLanes(graph.device(), grid),
                                          .material_class = material_class,
                                          .coverage = form.coverage,
                                          .mode = form.attributes ? RasterMode::Attributes : RasterMode::Coverage,
@@ -113,7 +123,7 @@ void binChunks(vk::FrameGraph& graph, const VoxelizeJob& job, MaterialClass mate
 void binLarge(vk::FrameGraph& graph, const VoxelizeJob& job)
 {
     VoxelizeBuffers& buffers = job.buffers;
-    const std::uint32_t lanes = tunedValue(graph.device(), Tunable::BlockLanes);
+    const std::uint32_t lanes = blockLanes(graph.device(), job.tile.grid);
     vk::Pass pass = graph.addPass(gpu::voxelize::BinLarge{
         .wide_keys = hasWideKeys(job.tile.grid), .block_lanes = lanes, .coverage = buffers.form.coverage});
     pass.dispatchIndirect(buffers.counters, &gpu::BinCounters::large,
