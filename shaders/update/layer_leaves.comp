@@ -16,13 +16,6 @@ layout(local_size_x = kBricksGroup) in;
 #include "voxelize/brick_lanes.glsl"
 #include "voxelize/window.glsl"
 
-#ifdef BOUND
-TEXELS_2(0, masks);
-#define MASKS(I) texelFetch(texels2_masks, int(I)).xy
-#else
-#define MASKS(I) uvec2_ConstPtr(uint64_t(params.masks)).data[I]
-#endif
-
 const uint kGroupBricks = kBricksGroup / kBrickLanes;
 
 shared uvec2 s_firsts[kGroupBricks]; // leaf and voxel of each brick

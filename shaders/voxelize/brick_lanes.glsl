@@ -1,10 +1,20 @@
 // SPDX-License-Identifier: MIT
 // Threads that share a brick: each takes kLaneLeaves of its leaves, which follow each other. Barriers are expensive on
 // CPUs, and loads one after the other on GPUs.
+// Needs params.masks, which have binding 0 in the kernel's bound form.
 #ifndef ZVO_SHADERS_VOXELIZE_BRICK_LANES_GLSL
 #define ZVO_SHADERS_VOXELIZE_BRICK_LANES_GLSL
 
+#include "lib/bound.glsl"
 #include "voxelize/bricks.h"
+
+// The mask of a leaf of a brick.
+#ifdef BOUND
+TEXELS_2(0, masks);
+#define MASKS(I) texelFetch(texels2_masks, int(I)).xy
+#else
+#define MASKS(I) uvec2_ConstPtr(uint64_t(params.masks)).data[I]
+#endif
 
 const uint kLaneLeaves = kBrickLeaves / kBrickLanes;
 const int kSecondCount = 16; // a brick has at most 4096 voxels: two counts fit one word

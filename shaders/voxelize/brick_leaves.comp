@@ -13,13 +13,6 @@ layout(local_size_x = kBricksGroup) in;
 #include "lib/node.glsl"
 #include "voxelize/brick_lanes.glsl"
 
-#ifdef BOUND
-TEXELS_2(0, masks);
-#define MASKS(I) texelFetch(texels2_masks, int(I)).xy
-#else
-#define MASKS(I) uvec2_ConstPtr(uint64_t(params.masks)).data[I]
-#endif
-
 uvec2 mixedOf(uint leaf_mask)
 {
     return kMixed ? MASKS(leaf_mask + kBrickLeaves) : uvec2(0u);

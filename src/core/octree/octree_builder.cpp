@@ -146,19 +146,14 @@ void OctreeBuilder::learnCoverage()
     m_step = {&OctreeBuilder::number, &OctreeBuilder::endNumbers};
 }
 
-void OctreeBuilder::requireRetry() const
+void OctreeBuilder::grow(const VoxelizeCapacities& grown)
 {
+    m_bricks.reset();
     if (m_result.retry_count + 1 >= kRetriesMax)
     {
         throw Error(ErrorCode::Memory,
                     fmt::format("voxelization found no room in {} attempts; lower the resolution", kRetriesMax));
     }
-}
-
-void OctreeBuilder::grow(const VoxelizeCapacities& grown)
-{
-    m_bricks.reset();
-    requireRetry();
     m_result.capacities = grown;
 }
 

@@ -87,7 +87,6 @@ private:
     VoxelizeJob voxelizeJob();
     void cover(vk::FrameGraph& graph);
     void learnCoverage();
-    void requireRetry() const;
     void grow(const VoxelizeCapacities& grown);
     void allocateNodes(const gpu::BinCounters& bins, const gpu::BrickCounters& nodes);
     void number(vk::FrameGraph& graph);
