@@ -1,8 +1,10 @@
 #version 460
 // SPDX-License-Identifier: MIT
-// Makes the items of large triangles, kBlockLanes threads a block of them: each takes every kBlockLanes-th column.
-// The test is exact and conservative: that of voxels, at the scale of bricks. In a brick, tiles of columns that the
-// triangle's outline or plane does not reach get no item.
+// Makes the items of large triangles, kBlockLanes threads a block of them. A block is walked in parts of 8^2 columns of
+// bricks, of which each thread takes every kBlockLanes-th column; blocks and parts that the triangle's outline or plane
+// does not reach end at once, so that the work is that of the triangle, not of its box. The test of a brick is exact
+// and conservative: that of voxels, at the scale of bricks. In a brick, tiles of columns that the triangle's outline or
+// plane does not reach get no item.
 #extension GL_GOOGLE_include_directive : require
 #include "voxelize/bricks.h"
 
@@ -92,8 +94,47 @@ uint writeTile(uint place, uint triangle, uint entry, uint tile, bool are_walked
     return place + (are_walked ? 1u : kItemColumns);
 }
 
+// Whether the triangle may touch bricks of these columns: in floats, which round coordinates and products by less than
+// the eighth of a brick at each side, and the half of one above and below, that are to spare.
+bool mayTouch(RasterTriangle t, ivec2 first, uvec2 size)
+{
+    vec2 reach = float(kCell) * (0.5 * vec2(size) + 0.125);
+    vec2 centre = float(kCell) * (vec2(first) + 0.5 * vec2(size));
+    vec3 edge_u = vec3(t.edge_u);
+    vec3 edge_v = vec3(t.edge_v);
+    vec3 outline = edge_u * (centre.y - vec3(t.v)) - edge_v * (centre.x - vec3(t.u)) + abs(edge_u) * reach.y +
+                   abs(edge_v) * reach.x;
+    vec2 slope = vec2(float(t.rise_u), float(t.rise_v)) * (1.0 / float(max(t.n_w, 1l)));
+    float layer = (float(t.w.x) + dot(slope, centre - vec2(t.u.x, t.v.x))) * (1.0 / float(kCell));
+    float layers = dot(slope, reach) * (1.0 / float(kCell)) + 1.5;
+    bool plane = t.n_w == 0 || (layer - layers <= float(t.high.z) && layer + layers >= float(t.low.z));
+    return min(outline.x, min(outline.y, outline.z)) >= 0.0 && plane;
+}
+
+// The layers near a segment (n_w == 0) over a column. Those of its box would be too many.
+ivec2 layersOfSegment(RasterTriangle t, ivec2 column)
+{
+    bool is_u = max(abs(t.edge_u.x), abs(t.edge_u.y)) >= max(abs(t.edge_v.x), abs(t.edge_v.y));
+    ivec3 along = is_u ? t.edge_u : t.edge_v;
+    bool is_first = abs(along.x) >= abs(along.y); // either is half of the segment, or more
+    int length = is_first ? along.x : along.y;
+    int rise = is_first ? t.edge_w.x : t.edge_w.y;
+    ivec3 start = is_first ? ivec3(t.u.x, t.v.x, t.w.x) : ivec3(t.u.y, t.v.y, t.w.y);
+    float from_start = float(kCell) * (float(is_u ? column.x : column.y) + 0.5) - float(is_u ? start.x : start.y);
+    float slope = length == 0 ? float(kLatticeLimit) : float(rise) / float(length);
+    float layer = (float(start.z) + slope * from_start) * (1.0 / float(kCell));
+    float reach = 0.5 * abs(slope) + 2.0; // half a column, and more than rounding takes
+    return ivec2(clamp(vec2(layer - reach, layer + reach), float(t.low.z), float(t.high.z)));
+}
+
 void binColumn(RasterTriangle t, ivec2 column, CellBox voxels, LargeBlock large)
 {
+    if (kItemCoverage == kCoverageConservative && t.n_w == 0)
+    {
+        ivec2 layers = layersOfSegment(t, column);
+        t.low.z = layers.x;
+        t.high.z = layers.y;
+    }
     RasterCell cell = startColumn(t, column);
     int high = min(cell.w_high, t.high.z);
     for (bool walking = true; walking;)
@@ -137,9 +178,22 @@ void main()
     uint row_blocks = (uint(t.high.x - t.low.x) >> log2) + 1u;
     ivec2 first = t.low.xy + ivec2(uvec2(block % row_blocks, block / row_blocks) << log2);
     uvec2 size = min(uvec2(t.high.xy - first + 1), uvec2(1u << log2));
-    for (uint i = thread % kBlockLanes; i < size.x * size.y; i += kBlockLanes)
+    uvec2 parts = ((size - 1u) >> kBlockBricksLog2) + 1u;
+    uint part_count = parts.x * parts.y;
+    for (uint step = part_count == 1u ? 1u : 0u; step <= part_count; ++step) // first the whole block
     {
-        uint row = divideSmall(i, size.x);
-        binColumn(t, first + ivec2(i - row * size.x, row), voxels, large);
+        uint part = max(step, 1u) - 1u;
+        uint part_row = divideSmall(part, parts.x);
+        ivec2 corner = ivec2(part - part_row * parts.x, part_row) << int(kBlockBricksLog2);
+        uvec2 columns = step == 0u ? size : min(size - uvec2(corner), uvec2(1u << kBlockBricksLog2));
+        bool touches = mayTouch(t, first + corner, columns);
+        if (step == 0u && !touches)
+            break;
+        uint count = step == 0u || !touches ? 0u : columns.x * columns.y;
+        for (uint i = thread % kBlockLanes; i < count; i += kBlockLanes)
+        {
+            uint row = divideSmall(i, columns.x);
+            binColumn(t, first + corner + ivec2(i - row * columns.x, row), voxels, large);
+        }
     }
 }

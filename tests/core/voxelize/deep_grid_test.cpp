@@ -71,7 +71,7 @@ Scene scatteredTriangles(std::uint32_t depth, std::size_t count)
     return test::triangleSoup(corners);
 }
 
-/// Needles, less than a voxel thick, that reach beyond both ends of the grid.
+/// Needles, less than a voxel thick, that reach beyond both ends of the grid, and a segment from corner to corner.
 Scene needles(std::uint32_t depth, std::size_t count)
 {
     const float end = std::ldexp(1.0F, static_cast<int>(depth));
@@ -87,6 +87,7 @@ Scene needles(std::uint32_t depth, std::size_t count)
     {
         corners.insert(corners.end(), all.at(i).begin(), all.at(i).end());
     }
+    corners.insert(corners.end(), {{1.25F, end - 2, 3.5F}, {end - 4, 3.0F, end - 1}, {end - 4, 3.0F, end - 1}});
     return test::triangleSoup(corners);
 }
 
