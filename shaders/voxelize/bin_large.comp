@@ -193,7 +193,9 @@ void main()
         for (uint i = thread % kBlockLanes; i < count; i += kBlockLanes)
         {
             uint row = divideSmall(i, columns.x);
-            binColumn(t, first + corner + ivec2(i - row * columns.x, row), voxels, large);
+            ivec2 column = first + corner + ivec2(i - row * columns.x, row);
+            if (mayTouch(t, column, uvec2(1u)))
+                binColumn(t, column, voxels, large);
         }
     }
 }

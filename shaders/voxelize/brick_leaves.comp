@@ -21,38 +21,37 @@ uvec2 mixedOf(uint leaf_mask)
 void main()
 {
     uint number = threadIndex() / kBrickLanes;
+    bool is_brick = number < params.brick_count;
     uint brick = params.order.data[min(number, params.brick_count - 1u)];
-    uint leaf = laneOfBrick() * kLaneLeaves;
-    uint first_mask = brick * ((kMixed ? 2u : 1u) * kBrickLeaves) + leaf;
+    BrickRange range = params.ranges.data[brick];
+    Node parent = Node(1u, 0u, 0u, 0u); // a grid of up to 4^3 is a leaf without nodes above it
+    if (params.first_leaf != 0u)
+        parent = params.nodes.data[nodeOf(params.bricks.data[range.entry])];
+    uint first_leaf = laneOfBrick() * kLaneLeaves;
+    uint leaves = first_leaf < 32u ? parent.mask_lo : parent.mask_hi; // of them this lane's, most are often empty
+    leaves = is_brick ? bitfieldExtract(leaves, int(first_leaf & 31u), int(kLaneLeaves)) : 0u;
+    uint first_mask = brick * ((kMixed ? 2u : 1u) * kBrickLeaves) + first_leaf;
     uint counts = 0u; // voxels, and mixed ones
-    for (uint i = 0u; i < kLaneLeaves; ++i)
+    for (uint rest = leaves; rest != 0u; rest &= rest - 1u)
     {
-        uvec2 mask = MASKS(first_mask + i);
-        uvec2 mixed = mixedOf(first_mask + i);
+        uvec2 mask = MASKS(first_mask + findLSB(rest));
+        uvec2 mixed = mixedOf(first_mask + findLSB(rest));
         counts += bitCount(mask.x) + bitCount(mask.y) + ((bitCount(mixed.x) + bitCount(mixed.y)) << kSecondCount);
     }
     uint total;
     uint before = countsBefore(counts, total);
-    if (number >= params.brick_count)
-        return;
-    BrickRange range = params.ranges.data[brick];
     uint voxel = range.first_voxel + bitfieldExtract(before, 0, kSecondCount);
     uint sums = range.first_sums + (before >> kSecondCount);
-    Node parent = Node(0u, 0u, 0u, 0u); // a grid of up to 4^3 is a leaf without nodes above it
-    if (params.first_leaf != 0u)
-        parent = params.nodes.data[nodeOf(params.bricks.data[range.entry])];
-    for (uint i = 0u; i < kLaneLeaves; ++i)
+    for (; leaves != 0u; leaves &= leaves - 1u)
     {
-        uvec2 mask = MASKS(first_mask + i);
-        uvec2 mixed = mixedOf(first_mask + i);
+        uint leaf = findLSB(leaves);
+        uvec2 mask = MASKS(first_mask + leaf);
+        uvec2 mixed = mixedOf(first_mask + leaf);
         uint middle = voxel + bitCount(mask.x);
-        if ((mask.x | mask.y) != 0u)
-        {
-            uint node = childIndex(parent, leaf + i);
-            params.nodes.data[node] = Node(mask.x, voxel, mask.y, middle);
-            if (kMixed)
-                params.mixed.data[node - params.first_leaf] = MixedVoxels(mixed.x, mixed.y, sums, 0u);
-        }
+        uint node = childIndex(parent, first_leaf + leaf);
+        params.nodes.data[node] = Node(mask.x, voxel, mask.y, middle);
+        if (kMixed)
+            params.mixed.data[node - params.first_leaf] = MixedVoxels(mixed.x, mixed.y, sums, 0u);
         voxel = middle + bitCount(mask.y);
         sums += bitCount(mixed.x) + bitCount(mixed.y);
     }
