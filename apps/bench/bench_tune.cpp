@@ -95,6 +95,8 @@ public:
             return msOf(build(), {"octree/average"});
         case Tunable::BlockLanes:
             return msOf(build(), {"voxelize/bin_large"});
+        case Tunable::BrickLanes:
+            return msOf(build(), {"voxelize/collect_bricks", "voxelize/brick_leaves"});
         case Tunable::MixedSums:
             return sumMs(build());
         case Tunable::PathForm:
@@ -187,6 +189,7 @@ bool canHave(const vk::Device& device, Tunable tunable, std::uint32_t value)
         return value == 0 || (report.min_subgroup_size != 0 && value >= report.min_subgroup_size &&
                               value <= report.max_subgroup_size);
     case Tunable::BlockLanes:
+    case Tunable::BrickLanes:
     case Tunable::MixedSums:
     case Tunable::PathForm:
     case Tunable::Loads:

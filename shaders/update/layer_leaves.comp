@@ -71,19 +71,17 @@ void listLeaves(uint brick, uint brick_count)
     }
     uint number = first.x + (before >> kSecondCount);
     uint voxel = first.y + bitfieldExtract(before, 0, kSecondCount);
-    for (uint i = 0u; i < kLaneLeaves; ++i)
+    for (leaves >>= leaf & 31u; leaves != 0u; leaves &= leaves - 1u)
     {
+        uint i = findLSB(leaves);
         uvec2 mask = MASKS(first_mask + i);
         uint middle = voxel + bitCount(mask.x);
-        if ((mask.x | mask.y) != 0u)
+        if (number < params.leaf_capacity)
         {
-            if (number < params.leaf_capacity)
-            {
-                params.keys.data[number] = gridDepth() > 2 ? childKey(key, leaf + i) : key;
-                params.nodes.data[params.brick_capacity + number] = Node(mask.x, voxel, mask.y, middle);
-            }
-            ++number;
+            params.keys.data[number] = gridDepth() > 2 ? childKey(key, leaf + i) : key;
+            params.nodes.data[params.brick_capacity + number] = Node(mask.x, voxel, mask.y, middle);
         }
+        ++number;
         voxel = middle + bitCount(mask.y);
     }
 }

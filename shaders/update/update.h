@@ -152,7 +152,8 @@ struct LayerLeavesParams // push constants of update/layer_leaves: kBrickLanes t
     uint report; // element of reports
 };
 #define UPDATE_LAYER_LEAVES_CONSTANTS(CONSTANT)                                                                        \
-    CONSTANT(0, bool, wide_keys, kWideKeys, false) /* the octree has more than kNarrowLevelsMax levels */
+    CONSTANT(0, bool, wide_keys, kWideKeys, false) /* the octree has more than kNarrowLevelsMax levels */              \
+    CONSTANT(1, uint, brick_lanes, kBrickLanes, 2u)
 GPU_KERNEL(update, layer_leaves, LayerLeaves, LayerLeavesParams, UPDATE_LAYER_LEAVES_CONSTANTS)
 
 struct EmissionPlacesParams // push constants of update/emission_places

@@ -32,7 +32,6 @@ const uint kListGroup = 64u;   // threads of a workgroup of voxelize/list_bricks
 const uint kListItems = 16u;   // table entries that a thread of it reads
 const uint kItemsGroup = 64u;  // threads of a workgroup where one thread takes one item
 const uint kBricksGroup = 64u; // threads of a workgroup where threads take bricks
-const uint kBrickLanes = 8u;   // threads that share a brick, where several do
 
 const int kBrickLatticeLog2 = kVoxelLatticeLog2 + int(kBrickLog2); // lattice units of a brick's edge
 
@@ -195,7 +194,8 @@ struct ListBricksParams // push constants of voxelize/list_bricks
     uint item_capacity;
     uint large_capacity;
 };
-GPU_KERNEL(voxelize, list_bricks, ListBricks, ListBricksParams, GPU_NO_CONSTANTS)
+#define VOXELIZE_LIST_BRICKS_CONSTANTS(CONSTANT) CONSTANT(0, uint, brick_lanes, kBrickLanes, 2u)
+GPU_KERNEL(voxelize, list_bricks, ListBricks, ListBricksParams, VOXELIZE_LIST_BRICKS_CONSTANTS)
 
 struct CoverParams // push constants of voxelize/cover: a thread an item
 {
@@ -231,7 +231,9 @@ struct CollectBricksParams // push constants of voxelize/collect_bricks: a threa
     GPU_PTR(DispatchArgs) args; // element 0 is set
     uint max_groups_x;
 };
-#define VOXELIZE_COLLECT_BRICKS_CONSTANTS(CONSTANT) CONSTANT(0, bool, mixed, kMixed, false)
+#define VOXELIZE_COLLECT_BRICKS_CONSTANTS(CONSTANT)                                                                    \
+    CONSTANT(0, bool, mixed, kMixed, false)                                                                            \
+    CONSTANT(1, uint, brick_lanes, kBrickLanes, 2u) /* threads that share a brick */
 GPU_KERNEL(voxelize, collect_bricks, CollectBricks, CollectBricksParams, VOXELIZE_COLLECT_BRICKS_CONSTANTS)
 
 struct PlaceBricksParams // push constants of voxelize/place_bricks: a thread a brick with voxels
@@ -271,7 +273,8 @@ struct BrickLeavesParams // push constants of voxelize/brick_leaves: kBrickLanes
 };
 #define VOXELIZE_BRICK_LEAVES_CONSTANTS(CONSTANT)                                                                      \
     CONSTANT(0, bool, wide_keys, kWideKeys, false)                                                                     \
-    CONSTANT(1, bool, mixed, kMixed, false)
+    CONSTANT(1, bool, mixed, kMixed, false)                                                                            \
+    CONSTANT(2, uint, brick_lanes, kBrickLanes, 2u)
 GPU_KERNEL(voxelize, brick_leaves, BrickLeaves, BrickLeavesParams, VOXELIZE_BRICK_LEAVES_CONSTANTS)
 
 struct AttributesParams // push constants of voxelize/attributes: a thread an item

@@ -5,7 +5,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "voxelize/bricks.h"
 
-GPU_ENTRY(ListBricksParams, GPU_NO_CONSTANTS);
+GPU_ENTRY(ListBricksParams, VOXELIZE_LIST_BRICKS_CONSTANTS);
 layout(local_size_x = kListGroup) in;
 
 #extension GL_KHR_shader_subgroup_arithmetic : require

@@ -18,6 +18,7 @@ namespace
 constexpr TuningValue kNodeLanes[] = {{"1", 1}, {"2", 2}, {"4", 4}, {"8", 8}, {"16", 16}};
 constexpr TuningValue kBeamLanes[] = {{"1", 1}, {"2", 2}, {"4", 4}, {"8", 8}, {"16", 16}};
 constexpr TuningValue kBlockLanes[] = {{"1", 1}, {"2", 2}, {"4", 4}, {"8", 8}, {"16", 16}, {"32", 32}};
+constexpr TuningValue kBrickLanes[] = {{"2", 2}, {"4", 4}, {"8", 8}};
 constexpr TuningValue kSwitches[] = {{"off", 0}, {"on", 1}};
 constexpr TuningValue kPathForms[] = {{"stages", 0}, {"kernel", 1}};
 constexpr TuningValue kSubgroupSizes[] = {{"auto", 0}, {"4", 4},   {"8", 8},    {"16", 16},
@@ -30,9 +31,10 @@ constexpr TuningValue kLoads[] = {{"auto", static_cast<std::uint32_t>(vk::LoadFo
 
 // A GPU wants many short threads: the slowest one sets a pass's time. On software devices idle threads and barriers
 // cost as much as others, and threads share what they compute of a triangle. Measured on an H100: docs/performance.md.
-constexpr std::array<TuningRow, 7> kTable = {{
+constexpr std::array<TuningRow, 8> kTable = {{
     {Tunable::NodeLanes, "node-lanes", "threads that share a node", 1, 4, kNodeLanes},
     {Tunable::BlockLanes, "block-lanes", "threads that share a block of a large triangle", 1, 16, kBlockLanes},
+    {Tunable::BrickLanes, "brick-lanes", "threads that share the leaves of a brick", 2, 8, kBrickLanes},
     {Tunable::MixedSums, "mixed-sums", "sums of voxels with several fragments alone", 1, 1, kSwitches},
     {Tunable::PathForm, "path-form", "paths in stages, or whole in one kernel", 0, 1, kPathForms},
     {Tunable::BeamLanes, "beam-lanes", "threads that share a beam", 1, 4, kBeamLanes},

@@ -19,6 +19,7 @@ enum class Tunable : std::uint8_t
 {
     NodeLanes,
     BlockLanes,
+    BrickLanes,
     MixedSums,
     PathForm,
     BeamLanes,

@@ -3,6 +3,7 @@
 
 #include "core/base/divide_up.h"
 #include "core/base/lanes.h"
+#include "core/base/tuning.h"
 #include "core/tree/leaf_words.h"
 
 namespace zvo
@@ -66,6 +67,12 @@ void numberLevel(vk::FrameGraph& graph, vk::BufferOf<gpu::BrickEntry>& table, Oc
                                                             .first_child = first_node + node_count});
 }
 
+gpu::voxelize::BrickLeaves brickLeaves(const vk::Device& device, const Grid& grid, const VoxelForm& form)
+{
+    return {
+        .wide_keys = hasWideKeys(grid), .mixed = form.mixed, .brick_lanes = tunedValue(device, Tunable::BrickLanes)};
+}
+
 // Numbers the voxels of bricks, and writes the nodes of leaves.
 void numberLeaves(vk::FrameGraph& graph, VoxelizeBuffers& voxelize, OctreeBuildBuffers& work,
                   vk::BufferOf<gpu::MixedVoxels>& mixed, DeviceTree& octree)
@@ -96,15 +103,16 @@ void numberLeaves(vk::FrameGraph& graph, VoxelizeBuffers& voxelize, OctreeBuildB
                                                                  .is_scanned = block_count > kBlocksUnscanned ? 1U : 0U,
                                                                  .brick_count = brick_count});
     }
-    vk::Pass pass = graph.addPass(gpu::voxelize::BrickLeaves{.wide_keys = wide, .mixed = voxelize.form.mixed});
-    pass.dispatch(std::uint64_t{brick_count} * gpu::kBrickLanes, {.bricks = pass.read(voxelize.table),
-                                                                  .ranges = pass.read(voxelize.ranges),
-                                                                  .order = pass.read(work.order),
-                                                                  .masks = pass.read(voxelize.masks),
-                                                                  .nodes = pass.readWrite(octree.nodes),
-                                                                  .mixed = pass.write(mixed),
-                                                                  .first_leaf = octree.levels.back().first_node,
-                                                                  .brick_count = brick_count});
+    const std::uint32_t lanes = tunedValue(graph.device(), Tunable::BrickLanes);
+    vk::Pass pass = graph.addPass(brickLeaves(graph.device(), octree.grid, voxelize.form));
+    pass.dispatch(std::uint64_t{brick_count} * lanes, {.bricks = pass.read(voxelize.table),
+                                                       .ranges = pass.read(voxelize.ranges),
+                                                       .order = pass.read(work.order),
+                                                       .masks = pass.read(voxelize.masks),
+                                                       .nodes = pass.readWrite(octree.nodes),
+                                                       .mixed = pass.write(mixed),
+                                                       .first_leaf = octree.levels.back().first_node,
+                                                       .brick_count = brick_count});
 }
 
 std::uint64_t partialCount(std::uint64_t table_capacity)
@@ -136,7 +144,8 @@ void listNodes(vk::FrameGraph& graph, const Grid& grid, VoxelizeBuffers& voxeliz
     graph.fill(work.ranges, 0);
     graph.fill(work.args, 0);
     {
-        vk::Pass pass = graph.addPass(gpu::voxelize::CollectBricks{.mixed = voxelize.form.mixed});
+        vk::Pass pass = graph.addPass(gpu::voxelize::CollectBricks{
+            .mixed = voxelize.form.mixed, .brick_lanes = tunedValue(graph.device(), Tunable::BrickLanes)});
         pass.dispatchIndirect(voxelize.counters, &gpu::BinCounters::collect,
                               {.bricks = pass.readWrite(voxelize.table),
                                .ranges = pass.readWrite(voxelize.ranges),
@@ -178,7 +187,7 @@ void numberNodes(vk::FrameGraph& graph, VoxelizeBuffers& voxelize, OctreeBuildBu
     kernels.get(gpu::octree::Assign{});
     kernels.get(gpu::voxelize::PlaceBricks{.wide_keys = wide});
     kernels.get(gpu::voxelize::BrickBases{});
-    kernels.get(gpu::voxelize::BrickLeaves{.wide_keys = wide, .mixed = voxelize.form.mixed});
+    kernels.get(brickLeaves(graph.device(), octree.grid, voxelize.form));
     graph.fill(work.partials, 0);
     const std::size_t level_count = octree.levels.size() - 1; // without the leaves
     std::uint32_t item_end = 0;                               // the root is the last item

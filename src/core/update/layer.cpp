@@ -3,6 +3,7 @@
 
 #include "core/base/clamped_count.h"
 #include "core/base/divide_up.h"
+#include "core/base/tuning.h"
 #include "core/base/with_slack.h"
 #include "core/voxelize/fragment_sums.h"
 #include "voxelize/window.h"
@@ -109,7 +110,8 @@ void listLeaves(vk::FrameGraph& graph, const LayerJob& job)
     LayerBuffers& layer = job.layer;
     VoxelizeBuffers& voxelize = layer.voxelize;
     graph.fill(layer.counters, 0);
-    vk::Pass pass = graph.addPass(gpu::update::LayerLeaves{.wide_keys = hasWideKeys(job.grid)});
+    const std::uint32_t lanes = tunedValue(graph.device(), Tunable::BrickLanes);
+    vk::Pass pass = graph.addPass(gpu::update::LayerLeaves{.wide_keys = hasWideKeys(job.grid), .brick_lanes = lanes});
     gpu::LayerLeavesParams params{};
     params.bricks = pass.readWrite(voxelize.table);
     params.ranges = pass.read(voxelize.ranges);
@@ -126,7 +128,7 @@ void listLeaves(vk::FrameGraph& graph, const LayerJob& job)
     params.voxel_capacity = layer.sums.count() != 0 ? static_cast<std::uint32_t>(layer.sums.count()) : UINT32_MAX;
     params.report = job.report;
     pass.dispatchIndirect(voxelize.counters, &gpu::BinCounters::leaves, params,
-                          divideUp(voxelize.ranges.count() * gpu::kBrickLanes, gpu::kBricksGroup));
+                          divideUp(voxelize.ranges.count() * lanes, gpu::kBricksGroup));
 }
 
 VoxelizeJob voxelizeJob(const LayerJob& job)

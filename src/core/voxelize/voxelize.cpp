@@ -142,7 +142,8 @@ void binLarge(vk::FrameGraph& graph, const VoxelizeJob& job)
 
 void listBricks(vk::FrameGraph& graph, VoxelizeBuffers& buffers)
 {
-    vk::Pass pass = graph.addPass(gpu::voxelize::ListBricks{});
+    vk::Pass pass =
+        graph.addPass(gpu::voxelize::ListBricks{.brick_lanes = tunedValue(graph.device(), Tunable::BrickLanes)});
     pass.dispatch(divideUp(buffers.table.count(), gpu::kListItems),
                   {.bricks = pass.readWrite(buffers.table),
                    .ranges = pass.write(buffers.ranges),

@@ -26,6 +26,7 @@ vk::HeadlessDevice& deviceLikeGpus()
     {
         vk::HeadlessOptions options = test::deviceOptions();
         options.tuning = {{"block-lanes", 16},
+                          {"brick-lanes", 8},
                           {"mixed-sums", 0},
                           {std::string(vk::kLoadsName), static_cast<std::uint32_t>(vk::LoadForm::Addresses)}};
         return vk::HeadlessDevice(options, zvoKernels());
