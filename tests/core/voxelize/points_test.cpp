@@ -51,7 +51,9 @@ Expected expectedOf(const Primitive& cloud, int size)
     for (std::size_t i = 0; i < cloud.positions.size(); ++i)
     {
         const glm::dvec3 point(cloud.positions[i]);
-        const glm::dvec3 q = glm::roundEven(point * 256.0) / 256.0;
+        const glm::dvec3 q = glm::dvec3(std::nearbyint(point.x * 256.0), std::nearbyint(point.y * 256.0),
+                                        std::nearbyint(point.z * 256.0)) /
+                             256.0;
         const glm::dvec3 size_of = glm::abs(point);
         const double largest = std::max({size_of.x, size_of.y, size_of.z});
         const bool is_finite = std::isfinite(point.x + point.y + point.z);

@@ -158,13 +158,13 @@ TEST(ImageIo, BmpAndTgaThatAreCutShortAreInputErrors)
     runs[15] = 32; // 8193 rows
     std::vector<std::uint8_t> flat = bmp();
     flat[22] = 100; // rows
-    for (const auto& [file, reason] :
+    for (const auto& [damaged, reason] :
          {std::pair(large, "16386 x 1"), std::pair(runs, "more than its"), std::pair(flat, "more than its"),
           std::pair(tga(2, 24, {}), "more than its"), std::pair(tga(2, 12, {1, 2, 3, 4}), "not a PNG")})
     {
-        test::expectParts(
-            test::messageOf([&] { static_cast<void>(decodeImage(file, "name", "here")); }, ErrorCode::Input),
-            {"here: ", reason});
+        test::expectParts(test::messageOf([&file = damaged] { static_cast<void>(decodeImage(file, "name", "here")); },
+                                          ErrorCode::Input),
+                          {"here: ", reason});
     }
 }
 

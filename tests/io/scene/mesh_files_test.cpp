@@ -431,7 +431,7 @@ TEST(MeshImport, DamagedBytesGiveASceneOrAnInputError)
             }
             damaged.resize(damaged.size() - (random() % 4 == 0 ? random() % damaged.size() : 0));
             dir.write(name, damaged);
-            loadsOrIsRefused([&] { EXPECT_LE(loadIn(dir, name).triangleCount(), 10000U); });
+            loadsOrIsRefused([&dir, &file = name] { EXPECT_LE(loadIn(dir, file).triangleCount(), 10000U); });
         }
     }
 }
