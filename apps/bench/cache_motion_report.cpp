@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Tables and JSON of what measureMotion() has measured.
+#include "bench/bench_table.h"
 #include "bench/cache_motion.h"
 #include "bench/table.h"
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "demo/app/scene_memory.h"
 
+#include "demo/world/view_state.h"
+
 #include <algorithm>
 #include <cstdint>
 #include <numbers>

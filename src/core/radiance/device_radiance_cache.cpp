@@ -2,6 +2,7 @@
 #include "core/radiance/device_radiance_cache.h"
 
 #include "core/base/divide_up.h"
+#include "vk/device.h"
 #include "zvo/error.h"
 
 #include <algorithm>
