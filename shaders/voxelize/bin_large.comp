@@ -179,23 +179,40 @@ void main()
     ivec2 first = t.low.xy + ivec2(uvec2(block % row_blocks, block / row_blocks) << log2);
     uvec2 size = min(uvec2(t.high.xy - first + 1), uvec2(1u << log2));
     uvec2 parts = ((size - 1u) >> kBlockBricksLog2) + 1u;
-    uint part_count = parts.x * parts.y;
-    for (uint step = part_count == 1u ? 1u : 0u; step <= part_count; ++step) // first the whole block
+    uint part_count = mayTouch(t, first, size) ? parts.x * parts.y : 0u;
+    uint lane = thread % kBlockLanes;
+    uint part = 0u; // the next one
+    ivec2 corner = ivec2(0);
+    uvec2 columns = uvec2(1u); // of the part before it, which begins at the corner
+    uint column_count = 0u;
+    uint next = 0u; // of its columns
+    // Threads look for a column that may have bricks, each its own, and then take theirs together.
+    for (bool walking = part_count != 0u; walking;)
     {
-        uint part = max(step, 1u) - 1u;
-        uint part_row = divideSmall(part, parts.x);
-        ivec2 corner = ivec2(part - part_row * parts.x, part_row) << int(kBlockBricksLog2);
-        uvec2 columns = step == 0u ? size : min(size - uvec2(corner), uvec2(1u << kBlockBricksLog2));
-        bool touches = mayTouch(t, first + corner, columns);
-        if (step == 0u && !touches)
-            break;
-        uint count = step == 0u || !touches ? 0u : columns.x * columns.y;
-        for (uint i = thread % kBlockLanes; i < count; i += kBlockLanes)
+        bool found = false;
+        ivec2 column = ivec2(0);
+        for (bool searching = true; searching;)
         {
-            uint row = divideSmall(i, columns.x);
-            ivec2 column = first + corner + ivec2(i - row * columns.x, row);
-            if (mayTouch(t, column, uvec2(1u)))
-                binColumn(t, column, voxels, large);
+            bool is_column = next < column_count;
+            uint row = is_column ? divideSmall(next, columns.x) : divideSmall(part, parts.x);
+            ivec2 place = is_column ? corner + ivec2(next - row * columns.x, row)
+                                    : ivec2(part - row * parts.x, row) << int(kBlockBricksLog2);
+            uvec2 extent = is_column ? uvec2(1u) : min(size - uvec2(place), uvec2(1u << kBlockBricksLog2));
+            bool touches = mayTouch(t, first + place, extent);
+            found = is_column && touches;
+            column = first + place;
+            next = is_column ? next + kBlockLanes : lane;
+            if (!is_column)
+            {
+                corner = place;
+                columns = extent;
+                column_count = touches ? extent.x * extent.y : 0u;
+                ++part;
+            }
+            walking = next < column_count || part < part_count;
+            searching = !found && walking;
         }
+        if (found)
+            binColumn(t, column, voxels, large);
     }
 }
