@@ -6,6 +6,8 @@
 #include "core/base/tuning.h"
 #include "core/tree/leaf_words.h"
 
+#include <cstddef>
+
 namespace zvo
 {
 

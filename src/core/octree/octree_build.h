@@ -7,7 +7,6 @@
 #include "octree/octree.h"
 #include "vk/frame_graph.h"
 
-#include <cstddef>
 #include <cstdint>
 
 namespace zvo

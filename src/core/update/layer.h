@@ -10,7 +10,6 @@
 #include "zvo/types.h"
 
 #include <cstdint>
-#include <vector>
 
 namespace zvo
 {

@@ -15,11 +15,14 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <cstdlib>
 #include <iterator>
 #include <map>
 #include <random>
+#include <string>
 #include <utility>
+#include <vector>
 
 namespace zvo
 {

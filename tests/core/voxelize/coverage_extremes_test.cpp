@@ -9,6 +9,8 @@
 
 #include <array>
 #include <random>
+#include <string>
+#include <vector>
 
 namespace zvo
 {

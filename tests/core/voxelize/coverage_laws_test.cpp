@@ -10,7 +10,14 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
+#include <functional>
+#include <optional>
 #include <random>
+#include <span>
+#include <string>
+#include <vector>
 
 namespace zvo
 {

@@ -9,8 +9,12 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <functional>
 #include <numbers>
 #include <random>
+#include <string>
+#include <vector>
 
 namespace zvo
 {
