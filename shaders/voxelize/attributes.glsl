@@ -39,7 +39,7 @@ void addEmission(uvec3 emission, uint voxel)
 {
     uvec2 word = params.emission_words.data[voxel >> 5];
     uint bit = 1u << (voxel & 31u);
-    if (emission != uvec3(0u) && (word.x & bit) != 0u)
+    if ((word.x & bit) != 0u)
     {
         uint rank = word.y + bitCount(word.x & (bit - 1u));
         atomicAdd(params.emission_sums.data[rank].red, emission.r >> params.sum_shift);
@@ -51,7 +51,7 @@ void addEmission(uvec3 emission, uint voxel)
 void main()
 {
     uint i = params.first_item + threadIndex();
-    if (i >= params.counters.data[0].covered_items)
+    if (i >= min(params.item_end, params.counters.data[0].covered_items))
         return;
     Voxels voxels = loadVoxels(i);
     if (!hasVoxels(voxels))
@@ -69,7 +69,10 @@ void main()
     {
         uvec3 voxel = takeVoxel(voxels);
         uint number = numberOf(voxel);
-        if (number >> 6 != leaf)
+        uvec3 weights = weightsAt(setup, corner + ivec3(voxel));
+        uvec4 color = fragmentColor(surface, weights);
+        bool exists = kMaterialClass != kClassAlpha || passesAlpha(surface, color.a, uvec3(corner) + voxel);
+        if (exists && number >> 6 != leaf) // what is cut out may have no leaf
         {
             leaf = number >> 6;
             uint index = leafIndex(brick, leaf);
@@ -79,15 +82,13 @@ void main()
         }
         uint cell = number & 63u;
         uint place = childIndex(node, cell);
-        uvec3 weights = weightsAt(setup, corner + ivec3(voxel));
-        uvec4 color = fragmentColor(surface, weights);
-        bool exists = kMaterialClass != kClassAlpha || passesAlpha(surface, color.a, uvec3(corner) + voxel);
         uvec3 emission = uvec3(0u);
         if (kEmits)
             emission = fragmentEmission(surface, weights);
         if (kMode == kModeEmission)
         {
-            addEmission(exists ? emission : uvec3(0u), place);
+            if (exists && emission != uvec3(0u))
+                addEmission(emission, place);
         }
         else if (exists)
         {

@@ -166,6 +166,8 @@ void main()
     if (thread / kBlockLanes >= block_count)
         return;
     LargeBlock large = params.large.data[thread / kBlockLanes];
+    if (large.triangle >= params.setup_capacity)
+        return; // it has no setup: this run is thrown away
     TriangleSetup setup = loadSetup(large.triangle);
     ivec3 window_low = ivec3(0);
     ivec3 window_high = ivec3(gridResolution() - 1);

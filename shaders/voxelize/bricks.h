@@ -173,6 +173,7 @@ struct BinLargeParams // push constants of voxelize/bin_large: kBlockLanes threa
     GPU_PTR(BinCounters) counters;       // [1]
     uint window;
     uint brick_mask;
+    uint setup_capacity;
     uint large_capacity;
     uint item_capacity;
 };
@@ -295,6 +296,7 @@ struct AttributesParams // push constants of voxelize/attributes: a thread an it
     uint window;
     uint first_leaf;
     uint first_item; // of this dispatch
+    uint item_end;
     uint sum_shift;
 };
 #define VOXELIZE_ATTRIBUTES_CONSTANTS(CONSTANT)                                                                        \

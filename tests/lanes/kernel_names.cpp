@@ -76,13 +76,25 @@ Scene smallScene()
     Material blended;
     blended.base_color_texture = 0;
     blended.alpha_mode = AlphaMode::Blend;
+    Material cut_out = emissive; // whole: its fragments have neither voxels nor leaves
+    cut_out.alpha_mode = AlphaMode::Mask;
+    cut_out.base_color.a = 0.1F;
     scene.materials.push_back(emissive);
     scene.materials.push_back(blended);
+    scene.materials.push_back(cut_out);
     textured.material = 1;
     scene.primitives.push_back(textured);
     textured.material = 2;
     scene.primitives.push_back(textured);
+    textured.material = 3;
+    textured.positions = {{9.0F, 10.0F, 15.5F}, {15.5F, 10.0F, 15.5F}, {15.5F, 15.5F, 15.5F}};
+    textured.triangles = {{0, 1, 2}};
+    textured.normals.resize(3);
+    textured.uvs.resize(3);
+    textured.colors.resize(3);
+    scene.primitives.push_back(textured);
     scene.instances.push_back({1, glm::mat4(0, 0, 1, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0, 1)});
+    scene.instances.push_back({3, glm::mat4(1.0F)});
     scene.instances.push_back({2, glm::mat4(-1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 16, 0, 0, 1)});
     return scene;
 }

@@ -53,6 +53,7 @@ void recordFragments(vk::FrameGraph& graph, const VoxelizeJob& job, RasterMode m
     params.window = gpu::packWindow(job.tile.grid.depth, job.tile.depth, job.tile.index);
     params.first_leaf = sums.first_leaf;
     params.first_item = static_cast<std::uint32_t>(first);
+    params.item_end = static_cast<std::uint32_t>(first + count);
     params.sum_shift = sums.sum_shift;
     pass.dispatch(count, params);
 }

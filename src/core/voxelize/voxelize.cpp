@@ -36,8 +36,11 @@ constexpr std::uint64_t kCountMin = 1024;
 constexpr std::uint64_t kItemsMin = 1 << 12;
 constexpr std::uint64_t kBricksGuessMax = 1 << 20; // the area may lie outside of the grid, for the most part
 constexpr std::uint64_t kItemsGuessMax = 1 << 25;
-constexpr std::uint64_t kItemsMax = 1ULL << 30;  // kernels number words of setups and of voxels
-constexpr std::uint64_t kBricksMax = 1ULL << 23; // ... and of masks
+// Kernels index quarters of a setup's surfaces, of which it has two with emission, an item's voxels, which are two with
+// conservative coverage, and the words of a brick's masks, at most 256: kIndicesMax each.
+constexpr std::uint64_t kSetupsMax = 1ULL << 28;
+constexpr std::uint64_t kItemsMax = 1ULL << 30;
+constexpr std::uint64_t kBricksMax = 1ULL << 23;
 
 // Whether fragments need what SurfaceSetup has.
 bool hasSurfaces(const GpuScene& scene)
@@ -135,6 +138,7 @@ void binLarge(vk::FrameGraph& graph, const VoxelizeJob& job)
                            .counters = pass.readWrite(buffers.counters),
                            .window = gpu::packWindow(job.tile.grid.depth, job.tile.depth, job.tile.index),
                            .brick_mask = count32(buffers.table) - 1,
+                           .setup_capacity = count32(buffers.setups),
                            .large_capacity = count32(buffers.large),
                            .item_capacity = count32(buffers.items)},
                           divideUp(buffers.large.count() * lanes, gpu::kLargeGroup));
@@ -218,7 +222,7 @@ const char* VoxelizeCapacities::uncountable(const gpu::BinCounters& counters) co
     {
         return "pieces of large triangles";
     }
-    if (counters.item_carry != 0 || counters.item_count > kItemsMax || counters.setup_count > kItemsMax)
+    if (counters.item_carry != 0 || counters.item_count > kItemsMax || counters.setup_count > kSetupsMax)
     {
         return "pieces of triangles";
     }
