@@ -12,7 +12,7 @@ layout(local_size_x = kRootGroup) in;
 #include "octree/nodes.glsl"
 #include "octree/place.glsl"
 
-// The level's nodes, whose first is given. Returns their number.
+// Numbers the nodes of a level, from first_node on. Returns how many they are.
 uint numberLevel(uint level, uint first_node)
 {
     LevelRange range = params.ranges.data[params.level_count - 1u - level];

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Threads that share a brick: each takes kLaneLeaves of its leaves, which follow each other. Barriers are expensive on
 // CPUs, and loads one after the other on GPUs.
-// Needs params.masks, which have binding 0 in the kernel's bound form.
+// Needs params.masks, with binding 0 in the bound form, and kBrickLanes, 2 or more: a lane's leaves fit one word.
 #ifndef ZVO_SHADERS_VOXELIZE_BRICK_LANES_GLSL
 #define ZVO_SHADERS_VOXELIZE_BRICK_LANES_GLSL
 

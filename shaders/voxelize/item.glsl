@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The columns of a triangle that an item stands for, and which of them the triangle covers.
-// Needs GPU_ENTRY with params.setups, surfaces, items and window, and the constants kWideKeys and kCoverage.
+// Needs GPU_ENTRY with params.setups, items and window, and the constants kWideKeys, kCoverage and kEmits.
 #ifndef ZVO_SHADERS_VOXELIZE_ITEM_GLSL
 #define ZVO_SHADERS_VOXELIZE_ITEM_GLSL
 

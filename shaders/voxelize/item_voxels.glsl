@@ -28,7 +28,7 @@ struct Voxels
 
 const uint kVoxelsStride = kThin ? 1u : 2u; // ItemVoxels of an item
 
-// Without voxels. t: of which the columns are those of its box.
+// An item without voxels, whose columns are those of t's box.
 Voxels noVoxels(RasterTriangle t)
 {
     uvec2 first = uvec2(t.low.xy) & 15u;

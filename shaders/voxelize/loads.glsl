@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// What the raster kernels load of a scene and of the lists of big triangles: by address, or, in their bound form
-// (lib/bound.glsl), from texels. Bindings 0 to 2 are those of lib/bricks.glsl, voxelize/sums.glsl and cover.comp, 13 and
-// 14 those of voxelize/item.glsl, cover.comp and attributes.glsl, 15 and 16 those of lib/attribute.glsl, from 17 on those
-// of setups and leaves of bricks. A kernel has 15 texel buffers at most; Vulkan promises 16.
+// What voxelization loads of a scene: by address, or, in a kernel's bound form (lib/bound.glsl), from texels. Bindings
+// 0 to 2 are those of lib/bricks.glsl, voxelize/sums.glsl and cover.comp, 13 and 14 those of voxelize/item.glsl,
+// cover.comp and attributes.glsl, 15 and 16 those of lib/attribute.glsl, from 17 on those of setups, and of items or of
+// leaves. A kernel has 15 texel buffers at most; Vulkan promises 16.
 // Needs params.scene.
 #ifndef ZVO_SHADERS_VOXELIZE_LOADS_GLSL
 #define ZVO_SHADERS_VOXELIZE_LOADS_GLSL

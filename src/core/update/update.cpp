@@ -120,7 +120,7 @@ void listTouched(vk::FrameGraph& graph, const UpdateJob& job, UpdateBuffers& buf
                                  .max_groups_x = state.max_groups_x});
 }
 
-// Merges the roots, and writes the levels of few nodes below them.
+// Merges the roots, and writes the root's children.
 void expandTop(vk::FrameGraph& graph, const UpdateJob& job, UpdateBuffers& buffers)
 {
     DeviceTree& tree = job.tree;
@@ -199,7 +199,7 @@ void assignBases(vk::FrameGraph& graph, const UpdateJob& job, UpdateBuffers& buf
                           partialsPerLevel(buffers));
 }
 
-// Parameters of update/merge or update/merge_emission.
+// Records update/merge or update/merge_emission.
 template <typename Kernel> void addMergePass(vk::FrameGraph& graph, const UpdateJob& job, UpdateBuffers& buffers)
 {
     const bool emits = job.tree.emission_words.count() != 0;

@@ -41,7 +41,7 @@ struct UpdateBuffers
     vk::BufferOf<gpu::TouchedNode> touched;     // [capacities.touched]
     vk::BufferOf<gpu::WorkItem> items;          // the touched nodes of each level, leaves first
     vk::BufferOf<gpu::LevelRange> ranges;       // [kNodeLevelsMax] the items of each level, leaves first
-    vk::BufferOf<gpu::DispatchArgs> level_args; // [kNodeLevelsMax] likewise: one thread an item
+    vk::BufferOf<gpu::DispatchArgs> level_args; // [kNodeLevelsMax] of each level, leaves first: one thread an item
     vk::BufferOf<gpu::uint> counts;             // [capacities.overlay_nodes] children of the overlay's nodes
     vk::BufferOf<gpu::uint> partials;           // for each level, the sums of kScanBlock counts each
     vk::BufferOf<gpu::DispatchArgs> args;       // [kArgsCount]

@@ -48,7 +48,7 @@ struct FragmentTarget
     std::uint32_t sum_shift = 0;
     bool int64 = false;                                       // two words by one atomic
     const vk::BufferOf<gpu::MixedVoxels>* mixed = nullptr;    // of the leaves: they alone have sums
-    vk::BufferOf<gpu::Attribute>* voxel_attributes = nullptr; // ... the other voxels get theirs
+    vk::BufferOf<gpu::Attribute>* voxel_attributes = nullptr; // [voxels] with mixed, of those that are not mixed
 };
 
 /// Records the pass over items [first, first + count), of which there may be fewer, whose coverage has been recorded

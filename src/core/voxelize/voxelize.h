@@ -43,7 +43,7 @@ struct VoxelForm
 {
     Coverage coverage = Coverage::Thin;
     bool attributes = true; // the fragments will be shaded
-    bool emission = false;  // ... and emit light; only with attributes
+    bool emission = false;  // the fragments emit light; only with attributes
     bool mixed = false;     // the masks tell which voxels are mixed: several fragments share them
 
     bool operator==(const VoxelForm&) const = default;
