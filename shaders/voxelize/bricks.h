@@ -21,11 +21,11 @@ const uint kOneColumn = 16u;      // one column of the tile, of a triangle that 
 const uint kItemColumnShift = 5u; // its number, 4 bits
 const uint kWholeBox = 1u << 9;   // instead: all of a small triangle's box in the brick
 
-const uint kBlockBricksLog2 = 3u;     // rows and columns of bricks in a block of a large triangle, or more
-const uint kBlockLog2Max = 6u;        // those of kBlocksMax blocks are the columns of the largest grid
-const uint kBlocksMax = 16384u;       // of a triangle: one thread lists them
-const uint kBlocksListMax = 1u << 28; // that one run may list
-const uint kBlockLog2Shift = 28u;     // of LargeBlock::block
+const uint kBlockBricksLog2 = 3u;     // least log2 of the rows of bricks in a LargeBlock, which has as many columns
+const uint kBlockLog2Max = 6u;        // greatest log2 of these rows: kBlocksMax such blocks cover the largest grid
+const uint kBlocksMax = 16384u;       // blocks of a triangle: one thread lists them
+const uint kBlocksListMax = 1u << 28; // blocks that one run may list
+const uint kBlockLog2Shift = 28u;     // first bit of the log2 in LargeBlock::block
 
 const uint kLargeGroup = 64u;  // threads of a workgroup of voxelize/bin_large
 const uint kListGroup = 64u;   // threads of a workgroup of voxelize/list_bricks
@@ -134,10 +134,10 @@ GPU_BUFFER(BinCounters, 4);
 
 struct BinParams // push constants of voxelize/bin: a thread a triangle
 {
-    GPU_CONST_PTR(SceneView) scene;
+    GPU_CONST_PTR(SceneView) scene; // [1]
     GPU_CONST_PTR(Chunk) chunks;    // [chunk_count]
     GPU_PTR(TriangleSetup) setups;  // [setup_capacity]
-    GPU_PTR(SurfaceSetup) surfaces; // [setup_capacity] of scenes with textures or colours of vertices
+    GPU_PTR(SurfaceSetup) surfaces; // [setup_capacity], twice with kEmits; empty: no textures, no vertex colours
     GPU_PTR(BrickEntry) bricks;     // [brick_mask + 1]
     GPU_PTR(BrickItem) items;       // [item_capacity]
     GPU_PTR(ItemVoxels) voxels;     // [item_capacity], with conservative coverage twice as many
@@ -165,11 +165,11 @@ GPU_KERNEL(voxelize, bin, Bin, BinParams, VOXELIZE_BIN_CONSTANTS)
 
 struct BinLargeParams // push constants of voxelize/bin_large: kBlockLanes threads a block
 {
-    GPU_CONST_PTR(TriangleSetup) setups; // [places]
+    GPU_CONST_PTR(TriangleSetup) setups; // [setup_capacity]
     GPU_CONST_PTR(LargeBlock) large;     // [large_capacity]
     GPU_PTR(BrickEntry) bricks;          // [brick_mask + 1]
     GPU_PTR(BrickItem) items;            // [item_capacity]
-    GPU_PTR(ItemVoxels) voxels;          // [item_capacity]
+    GPU_PTR(ItemVoxels) voxels;          // [item_capacity], with conservative coverage twice as many
     GPU_PTR(BinCounters) counters;       // [1]
     uint window;
     uint brick_mask;
@@ -183,7 +183,7 @@ struct BinLargeParams // push constants of voxelize/bin_large: kBlockLanes threa
     CONSTANT(2, Coverage, coverage, kItemCoverage, kCoverageConservative)
 GPU_KERNEL(voxelize, bin_large, BinLarge, BinLargeParams, VOXELIZE_BIN_LARGE_CONSTANTS)
 
-struct ListBricksParams // push constants of voxelize/list_bricks
+struct ListBricksParams // push constants of voxelize/list_bricks; counts of other kernels name its capacities
 {
     GPU_PTR(BrickEntry) bricks;    // [brick_capacity]
     GPU_PTR(BrickRange) ranges;    // [range_capacity]
@@ -200,14 +200,14 @@ GPU_KERNEL(voxelize, list_bricks, ListBricks, ListBricksParams, VOXELIZE_LIST_BR
 
 struct CoverParams // push constants of voxelize/cover: a thread an item
 {
-    GPU_CONST_PTR(SceneView) scene;
-    GPU_CONST_PTR(TriangleSetup) setups;
-    GPU_CONST_PTR(SurfaceSetup) surfaces;
-    GPU_CONST_PTR(BrickEntry) bricks;
-    GPU_CONST_PTR(BrickItem) items;
-    GPU_PTR(ItemVoxels) voxels; // [items]
-    GPU_PTR(uint) masks;        // for each range: of leaves, and with kMixed of their mixed voxels, kLeafMaskWords each
-    GPU_CONST_PTR(BinCounters) counters;
+    GPU_CONST_PTR(SceneView) scene;       // [1]
+    GPU_CONST_PTR(TriangleSetup) setups;  // [setup_capacity]
+    GPU_CONST_PTR(SurfaceSetup) surfaces; // as in BinParams
+    GPU_CONST_PTR(BrickEntry) bricks;     // [brick_capacity]
+    GPU_CONST_PTR(BrickItem) items;       // [item_capacity]
+    GPU_PTR(ItemVoxels) voxels;           // [item_capacity], with conservative coverage twice as many
+    GPU_PTR(uint) masks;                  // kLeafMaskWords a range, of leaves; with kMixed as many, of mixed voxels
+    GPU_CONST_PTR(BinCounters) counters;  // [1]
     uint window;
 };
 #define VOXELIZE_COVER_CONSTANTS(CONSTANT)                                                                             \
@@ -221,15 +221,15 @@ GPU_KERNEL(voxelize, cover, Cover, CoverParams, VOXELIZE_COVER_CONSTANTS)
 
 struct CollectBricksParams // push constants of voxelize/collect_bricks: a thread a brick
 {
-    GPU_PTR(BrickEntry) bricks; // get the masks of their leaves
-    GPU_PTR(BrickRange) ranges; // get their voxels and first sums
-    GPU_CONST_PTR(uint) masks;
-    GPU_PTR(WorkItem) work;    // those with voxels
-    GPU_PTR(uint) work_bricks; // their numbers in ranges
-    GPU_PTR(BinCounters) counters;
-    GPU_PTR(BrickCounters) nodes;
-    GPU_PTR(LevelRange) levels; // element 0 is set
-    GPU_PTR(DispatchArgs) args; // element 0 is set
+    GPU_PTR(BrickEntry) bricks;    // [brick_capacity] get the masks of their leaves
+    GPU_PTR(BrickRange) ranges;    // [range_capacity] get their voxels and first sums
+    GPU_CONST_PTR(uint) masks;     // as in CoverParams
+    GPU_PTR(WorkItem) work;        // [brick_capacity] bricks with voxels
+    GPU_PTR(uint) work_bricks;     // [range_capacity] their numbers in ranges
+    GPU_PTR(BinCounters) counters; // [1]
+    GPU_PTR(BrickCounters) nodes;  // [1]
+    GPU_PTR(LevelRange) levels;    // [kNodeLevelsMax] element 0 is set
+    GPU_PTR(DispatchArgs) args;    // [kNodeLevelsMax] element 0 is set
     uint max_groups_x;
 };
 #define VOXELIZE_COLLECT_BRICKS_CONSTANTS(CONSTANT)                                                                    \
@@ -239,12 +239,12 @@ GPU_KERNEL(voxelize, collect_bricks, CollectBricks, CollectBricksParams, VOXELIZ
 
 struct PlaceBricksParams // push constants of voxelize/place_bricks: a thread a brick with voxels
 {
-    GPU_CONST_PTR(BrickEntry) bricks;
-    GPU_CONST_PTR(BrickRange) ranges;
-    GPU_CONST_PTR(WorkItem) work;
-    GPU_CONST_PTR(uint) work_bricks;
-    GPU_PTR(uint) order;    // [brick_count] numbers in ranges, in the order of nodes
-    GPU_PTR(uint) partials; // [ceil(brick_count / kScanBlock)] cleared: voxels of kScanBlock bricks each
+    GPU_CONST_PTR(BrickEntry) bricks; // [brick_capacity]
+    GPU_CONST_PTR(BrickRange) ranges; // [range_capacity]
+    GPU_CONST_PTR(WorkItem) work;     // [brick_count] bricks with voxels
+    GPU_CONST_PTR(uint) work_bricks;  // [brick_count] their numbers in ranges
+    GPU_PTR(uint) order;              // [brick_count] numbers in ranges, in the order of nodes
+    GPU_PTR(uint) partials;           // [ceil(brick_count / kScanBlock)] cleared: voxels of kScanBlock bricks each
     uint first_node;
     uint brick_count;
 };
@@ -253,23 +253,23 @@ GPU_KERNEL(voxelize, place_bricks, PlaceBricks, PlaceBricksParams, VOXELIZE_PLAC
 
 struct BrickBasesParams // push constants of voxelize/brick_bases
 {
-    GPU_PTR(BrickRange) ranges; // get their first voxels
-    GPU_CONST_PTR(uint) order;
-    GPU_CONST_PTR(uint) partials;
-    uint is_scanned; // 1: partials are exclusive prefix sums already
+    GPU_PTR(BrickRange) ranges;   // [range_capacity] get their first voxels
+    GPU_CONST_PTR(uint) order;    // [brick_count]
+    GPU_CONST_PTR(uint) partials; // [ceil(brick_count / kScanBlock)]
+    uint is_scanned;              // 1: partials are exclusive prefix sums already
     uint brick_count;
 };
 GPU_KERNEL(voxelize, brick_bases, BrickBases, BrickBasesParams, GPU_NO_CONSTANTS)
 
 struct BrickLeavesParams // push constants of voxelize/brick_leaves: kBrickLanes threads a brick
 {
-    GPU_CONST_PTR(BrickEntry) bricks;
-    GPU_CONST_PTR(BrickRange) ranges;
-    GPU_CONST_PTR(uint) order;
-    GPU_CONST_PTR(uint) masks;
-    GPU_PTR(Node) nodes;
-    GPU_PTR(MixedVoxels) mixed; // [leaves] with kMixed
-    uint first_leaf;            // of nodes
+    GPU_CONST_PTR(BrickEntry) bricks; // [brick_capacity]
+    GPU_CONST_PTR(BrickRange) ranges; // [range_capacity]
+    GPU_CONST_PTR(uint) order;        // [brick_count]
+    GPU_CONST_PTR(uint) masks;        // as in CoverParams
+    GPU_PTR(Node) nodes;              // [nodes of the octree]
+    GPU_PTR(MixedVoxels) mixed;       // [leaves] with kMixed
+    uint first_leaf;                  // of nodes
     uint brick_count;
 };
 #define VOXELIZE_BRICK_LEAVES_CONSTANTS(CONSTANT)                                                                      \
@@ -280,19 +280,19 @@ GPU_KERNEL(voxelize, brick_leaves, BrickLeaves, BrickLeavesParams, VOXELIZE_BRIC
 
 struct AttributesParams // push constants of voxelize/attributes: a thread an item
 {
-    GPU_CONST_PTR(SceneView) scene;
-    GPU_CONST_PTR(TriangleSetup) setups;
-    GPU_CONST_PTR(SurfaceSetup) surfaces;
-    GPU_CONST_PTR(BrickEntry) bricks;
-    GPU_CONST_PTR(BrickItem) items;
-    GPU_CONST_PTR(ItemVoxels) voxels;
-    GPU_CONST_PTR(Node) nodes;
-    GPU_CONST_PTR(MixedVoxels) mixed;
-    GPU_PTR(VoxelSums) sums;             // [voxels], or with kMixed [mixed voxels]
-    GPU_PTR(Attribute) attributes;       // [voxels] with kMixed, of those that are not mixed
-    GPU_PTR(uvec2) emission_words;       // [ceil(voxels / 32)] with kEmits
-    GPU_PTR(EmissionSums) emission_sums; // [emissive voxels]
-    GPU_CONST_PTR(BinCounters) counters;
+    GPU_CONST_PTR(SceneView) scene;       // [1]
+    GPU_CONST_PTR(TriangleSetup) setups;  // [setup_capacity]
+    GPU_CONST_PTR(SurfaceSetup) surfaces; // as in BinParams
+    GPU_CONST_PTR(BrickEntry) bricks;     // [brick_capacity]
+    GPU_CONST_PTR(BrickItem) items;       // [item_capacity]
+    GPU_CONST_PTR(ItemVoxels) voxels;     // [item_capacity], with conservative coverage twice as many
+    GPU_CONST_PTR(Node) nodes;            // [nodes of the octree], or of a layer
+    GPU_CONST_PTR(MixedVoxels) mixed;     // [leaves] with kMixed
+    GPU_PTR(VoxelSums) sums;              // [voxels], or with kMixed [mixed voxels]
+    GPU_PTR(Attribute) attributes;        // [voxels] with kMixed, of those that are not mixed
+    GPU_PTR(uvec2) emission_words;        // [ceil(voxels / 32)] with kEmits
+    GPU_PTR(EmissionSums) emission_sums;  // [emissive voxels]
+    GPU_CONST_PTR(BinCounters) counters;  // [1]
     uint window;
     uint first_leaf;
     uint first_item; // of this dispatch
@@ -311,12 +311,12 @@ GPU_KERNEL(voxelize, attributes_int64, AttributesInt64, AttributesParams, VOXELI
 
 struct ResolveLeavesParams // push constants of voxelize/resolve_leaves: a thread a leaf
 {
-    GPU_CONST_PTR(SceneView) scene;
-    GPU_CONST_PTR(Node) nodes;
-    GPU_CONST_PTR(MixedVoxels) mixed;
-    GPU_CONST_PTR(VoxelSums) sums;
-    GPU_PTR(Attribute) attributes; // of mixed voxels
-    GPU_PTR(uint) max_fragments;   // [1] raised to the largest fragment count of a voxel
+    GPU_CONST_PTR(SceneView) scene;   // [1]
+    GPU_CONST_PTR(Node) nodes;        // [nodes of the octree]
+    GPU_CONST_PTR(MixedVoxels) mixed; // [leaf_count]
+    GPU_CONST_PTR(VoxelSums) sums;    // [mixed voxels]
+    GPU_PTR(Attribute) attributes;    // [voxels] of mixed ones
+    GPU_PTR(uint) max_fragments;      // [1] raised to the largest fragment count of a voxel
     uint first_leaf;
     uint leaf_count;
     uint sum_shift;
