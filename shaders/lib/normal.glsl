@@ -87,6 +87,9 @@ vec3 faceNormal(uint face, vec3 direction)
 // From this cosine between a normal and the viewer's direction on, a surface is seen from behind. At the rim of a
 // surface its normal may point away from the viewer without that, the more so the coarser the surface's triangles are.
 const float kSeenFromBehind = 0.5;
+// Where it points away less, it is seen from behind if the cosine between it and the normal of the face that the viewer
+// sees is below this: a floor whose triangles are wound as a ceiling's.
+const float kAgainstFace = -0.5;
 
 // Normal of an attribute, turned round if the surface is seen from behind; face_normal if it has none. All faces of a
 // voxel have the same one, so neighbouring pixels do.
@@ -95,7 +98,9 @@ vec3 shadingNormal(uint code, vec3 face_normal, vec3 direction)
     if (code == kNoNormal)
         return face_normal;
     vec3 normal = normalize(vec3(decodeNormal(code)));
-    return dot(normal, direction) > kSeenFromBehind * length(direction) ? -normal : normal;
+    float away = dot(normal, direction);
+    bool is_behind = away > kSeenFromBehind * length(direction) || (away > 0.0 && dot(normal, face_normal) < kAgainstFace);
+    return is_behind ? -normal : normal;
 }
 
 #endif

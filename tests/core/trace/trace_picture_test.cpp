@@ -2,9 +2,12 @@
 // Options that change how pictures are made do not change what they show.
 #include "core/base/morton.h"
 #include "core/trace/trace.h"
+#include "core/upload/gpu_scene.h"
 #include "oracle/trace.h"
+#include "runtime/trees.h"
 #include "support/engine_device.h"
 #include "support/pictures.h"
+#include "support/scenes.h"
 #include "support/trace_octrees.h"
 
 #include <gtest/gtest.h>
@@ -12,6 +15,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <random>
+#include <vector>
 
 namespace zvo
 {
@@ -375,6 +379,36 @@ TEST(TracePicture, DetailShowsCoarserNodesFartherAway)
     { return picture.hits.at(static_cast<std::size_t>(y * 64 + 32)).where.y >> 22 & 15U; };
     EXPECT_EQ(level(60), 4U);
     EXPECT_LT(level(28), 4U);
+}
+
+// A floor looks as it does with its triangles wound the other way, also from near the ground.
+TEST(TracePicture, FloorsMayBeWoundAsCeilings)
+{
+    const std::vector<glm::vec3> corners = {{0, 0.1F, 0}, {0, 0.1F, 1}, {1, 0.2F, 1},
+                                            {0, 0.1F, 0}, {1, 0.2F, 1}, {1, 0.2F, 0}};
+    std::vector<glm::vec3> reversed = corners;
+    std::reverse(reversed.begin(), reversed.end());
+    const Grid grid{.origin = glm::vec3(0.0F), .voxel_size = 1.0F / 128, .depth = 7};
+    const auto look = [&](const std::vector<glm::vec3>& triangles, double height)
+    {
+        const ViewCamera camera = ViewCamera::lookAt({0.5, height, 1.6}, {0.5, 0.15, 0.4}, 0.7);
+        const GpuScene scene = uploadScene(device(), test::triangleSoup(triangles), true);
+        const DeviceTree octree = buildOctree(device(), scene, grid, {}).octree;
+        return take(octree, traceCamera(camera, grid, 96), 128, 96, {});
+    };
+    for (const double height : {0.4, 0.7, 2.0})
+    {
+        const Picture up = look(corners, height);
+        const Picture down = look(reversed, height);
+        std::size_t equal_count = 0;
+        for (std::size_t i = 0; i < up.image.size(); ++i)
+        {
+            equal_count += up.hits[i].index != gpu::kHitMiss && up.image[i] == down.image[i] ? 1 : 0;
+        }
+        const std::uint32_t hits = hitCount(up);
+        EXPECT_GT(hits, 1000U);
+        EXPECT_GE(static_cast<double>(equal_count), 0.9 * hits) << "from " << height;
+    }
 }
 
 } // namespace
