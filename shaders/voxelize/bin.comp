@@ -56,11 +56,6 @@ void listLarge(SnappedTriangle snapped, uint axis, uint triangle)
     for (; log2 < kBlockLog2Max && blocks.x * blocks.y > kBlocksMax; ++log2)
         blocks = (blocks + 1u) >> 1;
     uint count = blocks.x * blocks.y;
-    if (count > kBlocksMax)
-    {
-        atomicMax(params.counters.data[0].blocks_exceeded, 1u);
-        return;
-    }
     uint first = atomicAdd(params.counters.data[0].large_count, count);
     if (first > kBlocksListMax)
         atomicMax(params.counters.data[0].blocks_exceeded, 1u); // before large_count wraps around

@@ -112,7 +112,7 @@ struct BinCounters
     uint small_items;   // of small triangles, which come first
     uint covered_items; // item_count; 0 in a run that is thrown away
     uint setup_count;
-    uint blocks_exceeded; // 1: a triangle has too many blocks, or all of them have
+    uint blocks_exceeded; // 1: large triangles have more than kBlocksListMax blocks in all
     uint large_count;     // blocks of large triangles
     uint overflow_count;  // bricks that found no slot in the table
     uint nonfinite;

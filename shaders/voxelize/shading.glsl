@@ -64,25 +64,15 @@ uvec3 mul16(uvec3 a, uvec3 b)
 }
 
 // Barycentric weights in 1/65536 that add up to 65536. has_area: the triangle is not a segment or a point.
-uvec3 fixedWeights(EDGE_IVEC3 corners, bool has_area)
+uvec3 fixedWeights(i64vec3 corners, bool has_area)
 {
-    EDGE_IVEC3 b = max(corners, EDGE_IVEC3(0));
-#ifdef EDGE_WIDE
-    u64vec3 wide = u64vec3(b);
+    u64vec3 wide = u64vec3(max(corners, i64vec3(0)));
     uint64_t total = wide.x + wide.y + wide.z;
     uvec2 words = unpack32(total);
     int top = words.y != 0u ? 32 + findMSB(words.y) : findMSB(words.x);
     int shift = max(top - 15, 0);
     uvec3 small = uvec3(wide >> shift);
-    uint sum = uint(total >> shift);
-#else
-    uvec3 narrow = uvec3(b);
-    uint total = narrow.x + narrow.y + narrow.z;
-    int shift = max(findMSB(total) - 15, 0);
-    uvec3 small = narrow >> shift;
-    uint sum = total >> shift;
-#endif
-    sum = max(sum, 1u);
+    uint sum = max(uint(total >> shift), 1u);
     uvec2 w = divideSmall(small.xy * kUvOne, sum);
     return has_area ? uvec3(w, kUvOne - w.x - w.y) : uvec3(21846u, 21845u, 21845u);
 }

@@ -19,6 +19,7 @@ static_assert(static_cast<gpu::uint>(Coverage::Conservative) == gpu::kCoverageCo
 static_assert(static_cast<gpu::uint>(Coverage::Thin) == gpu::kCoverageThin);
 static_assert(Grid::kDepthMax < 1U << gpu::kWindowDepthBits);
 static_assert(GridTile::kTilesMax == 1U << gpu::kWindowIndexBits);
+static_assert(1U << (2 * (Grid::kDepthMax - gpu::kBrickLog2 - gpu::kBlockLog2Max)) <= gpu::kBlocksMax);
 static_assert(sizeof(gpu::BrickEntry) == gpu::kBrickBytes && sizeof(gpu::MixedVoxels) == gpu::kBrickBytes);
 // What shaders/voxelize/loads.glsl puts together from words.
 static_assert(sizeof(gpu::Draw) == gpu::kDrawWords * sizeof(gpu::uint));
