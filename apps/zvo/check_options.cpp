@@ -40,7 +40,7 @@ void checkTreeOptions(const RenderOptions& options)
     const VoxelOptions plain;
     if (voxels.scenes.size() > 1)
     {
-        throw Error(ErrorCode::Usage, fmt::format("{} stands alone; build one .zvo file of all that is to be seen",
+        throw Error(ErrorCode::Usage, fmt::format("{} stands alone; show one .zvo or .vox file, or scenes",
                                                   std::ranges::find_if(voxels.scenes, isTreeFile)->string()));
     }
     const std::pair<const char*, bool> given[] = {

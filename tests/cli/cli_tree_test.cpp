@@ -188,6 +188,7 @@ TEST_F(CliTree, RefusalsAreOneLineWithTheirExitCode)
     changed[changed.size() - 1] ^= 1;
     m_dir.write("changed.zvo", changed);
     m_dir.write("text.zvo", std::string_view("ply\n"));
+    m_dir.write("voxels.scene.json", std::string_view(R"({"objects": [{"name": "a", "file": "broken.vox"}]})"));
     m_dir.write("broken.vox", std::string_view("VOX \x96\0\0\0MAIN\0\0\0\0\xff\0\0\0", 20));
     const std::vector<std::string> before = filesIn(m_dir.path());
     struct Refusal
@@ -206,14 +207,15 @@ TEST_F(CliTree, RefusalsAreOneLineWithTheirExitCode)
         {"validate cube.glb", 3, "not a .zvo file"},
         {"convert cube.glb -o a.ply", 3, "neither a .zvo nor a .vox file"},
         {"convert broken.vox -o a.zvo", 3, "cut short"},
-        {"voxelize svo.zvo -o a.ply", 3, "voxels and no triangles"},
-        {"build broken.vox -o a.zvo", 3, "zvo convert"},
+        {"voxelize svo.zvo -o a.ply", 3, "svo.zvo: it holds voxels and no triangles"},
+        {"build broken.vox -o a.zvo", 3, "zvo convert makes a .zvo file"},
+        {"render voxels.scene.json -o a.png", 3, "broken.vox: it holds voxels and no triangles"},
         {"render broken.vox -o a.png", 3, "cut short"},
         {"inspect broken.vox", 3, "cut short"},
         {"validate broken.vox", 3, "cut short"},
         {"render broken.vox -o a.png --resolution 64", 2, "--resolution does not go with broken.vox"},
         {"render broken.vox -o a.png --margin 8", 2, "--margin does not go with broken.vox"},
-        {"render cube.glb broken.vox -o a.png", 2, "broken.vox stands alone"},
+        {"render cube.glb broken.vox -o a.png", 2, "broken.vox stands alone; show one .zvo or .vox file"},
         {"convert svo.zvo -o a.stl", 2, ".morton"},
         {"convert svo.zvo -o svo.zvo -f", 2, "overwritten"},
         {"convert svdag.zvo -o a.zvo --structure svo", 2, "cannot become an octree"},

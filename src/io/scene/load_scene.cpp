@@ -19,6 +19,7 @@
 #include <array>
 #include <cmath>
 #include <fmt/format.h>
+#include <iterator>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -39,6 +40,9 @@ enum class FileFormat
     Stl,
     Xyz
 };
+
+constexpr const char* kHoldsVoxels = "it holds voxels and no triangles, of which scenes are made; zvo render shows it "
+                                     "alone, zvo convert makes a .zvo file or a mesh (.glb) of it";
 
 std::string lowerExtension(const std::filesystem::path& path)
 {
@@ -83,7 +87,7 @@ Scene loadFile(const std::filesystem::path& path, ImageDecoding decoding)
     }
     if (isZvoFile(path))
     {
-        throw inputError(path, "a .zvo file holds voxels and no triangles; zvo render and zvo convert take it");
+        throw inputError(path, kHoldsVoxels);
     }
     std::vector<std::uint8_t> bytes = readFile(path);
     const std::string extension = lowerExtension(path);
@@ -94,8 +98,7 @@ Scene loadFile(const std::filesystem::path& path, ImageDecoding decoding)
     }
     if (extension == ".vox" || asText(bytes).starts_with("VOX "))
     {
-        throw inputError(path, "a .vox file holds voxels and no triangles; zvo render shows it, zvo convert a.vox -o "
-                               "a.zvo makes a tree of it");
+        throw inputError(path, kHoldsVoxels);
     }
     const std::optional<FileFormat> format = formatOf(bytes, extension);
     if (!format)
@@ -182,10 +185,7 @@ Scene loadScene(std::span<const std::filesystem::path> paths, const LoadOptions&
 {
     SkippedMaterials skipped(options.skip_materials);
     Scene scene = loadScene(paths, options, skipped);
-    for (std::string& warning : skipped.warnings())
-    {
-        scene.warnings.push_back(std::move(warning));
-    }
+    std::ranges::move(skipped.warnings(), std::back_inserter(scene.warnings));
     return scene;
 }
 
