@@ -6,6 +6,7 @@
 
 #include <csignal>
 #include <ostream>
+#include <sys/stat.h>
 #include <thread>
 
 namespace zvo::test
@@ -72,6 +73,7 @@ const std::vector<WrongUse>& wrongUses()
         {"ReportIsTheInput", 2, "render cube.glb -o a.png --json cube.glb -f", {"overwritten"}},
 
         {"InputIsADevice", 3, "render /dev/zero -o a.png", {"/dev/zero", "device"}},
+        {"InputIsAPipe", 3, "render pipe.obj -o a.png", {"pipe.obj", "a pipe, not a file"}},
         {"MissingFile", 3, "render absent.glb -o a.png", {"absent.glb", "No such file"}},
         {"BrokenGlb", 3, "render broken.glb -o a.png", {"broken.glb"}},
         {"EmptyFile", 3, "voxelize empty.glb -o a.ply", {"empty.glb"}},
@@ -116,6 +118,7 @@ TEST_P(CliError, IsOneLineAndAnExitCodeAndLeavesNothingBehind)
     const std::vector<std::uint8_t> cube = builder.glb();
     m_dir.write("broken.glb", std::span(cube).first(cube.size() / 2));
     m_dir.write("empty.glb", std::string_view());
+    ASSERT_EQ(mkfifo((m_dir.path() / "pipe.obj").c_str(), S_IRUSR | S_IWUSR), 0);
     m_dir.write("taken.png", std::string_view("kept"));
     m_dir.write("frame2.png", std::string_view("kept"));
     json no_buffer = builder.finished();

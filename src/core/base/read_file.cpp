@@ -34,15 +34,18 @@ struct CloseFile
 
 std::vector<std::uint8_t> readFile(const std::filesystem::path& path)
 {
+    std::error_code ignored;
+    // Opening a pipe may wait for ever; those in /dev, standard input and the shell's, are open already.
+    const bool is_pipe = std::filesystem::is_fifo(path, ignored) && !path.string().starts_with("/dev/");
+    if (is_pipe || std::filesystem::is_character_file(path, ignored) || std::filesystem::is_block_file(path, ignored))
+    {
+        throw Error(ErrorCode::Input,
+                    fmt::format("cannot read {}: it is a {}, not a file", path.string(), is_pipe ? "pipe" : "device"));
+    }
     const std::unique_ptr<std::FILE, CloseFile> file(std::fopen(path.c_str(), "rb"));
     if (!file)
     {
         throw readError(path, errno);
-    }
-    std::error_code ignored;
-    if (std::filesystem::is_character_file(path, ignored) || std::filesystem::is_block_file(path, ignored))
-    {
-        throw Error(ErrorCode::Input, fmt::format("cannot read {}: it is a device, not a file", path.string()));
     }
     // The size is a hint: a pipe has none, and one byte more lets the first read see the end.
     std::error_code no_size;

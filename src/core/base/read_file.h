@@ -10,7 +10,7 @@
 namespace zvo
 {
 
-/// All bytes of a file, or of a pipe until its end. Throws Error{Input} with the path and the system's reason.
+/// All bytes of a file, or of a pipe in /dev until its end. Throws Error{Input} with the path and the system's reason.
 std::vector<std::uint8_t> readFile(const std::filesystem::path& path);
 
 /// count bytes of a file, from byte first on. Throws Error{Input}, also where the file has fewer.
