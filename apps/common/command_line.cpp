@@ -98,10 +98,7 @@ void describeProgram(CLI::App& app, const char* footer)
 
 Error usageError(const CLI::App& app, std::string what)
 {
-    while (!what.empty() && (what.back() == '\n' || what.back() == '.'))
-    {
-        what.pop_back();
-    }
+    what.erase(what.find_last_not_of("\n.") + 1);
     const std::vector<CLI::App*> chosen = app.get_subcommands();
     const std::string command = chosen.empty() ? "" : " " + chosen.front()->get_name();
     return {ErrorCode::Usage, fmt::format("{}; see {}{} --help", what, app.get_name(), command)};
@@ -136,7 +133,9 @@ bool parse(CLI::App& app, int argc, const char* const* argv)
     }
     catch (const CLI::ParseError& error)
     {
-        throw usageError(app, error.what());
+        const std::string what = error.what();
+        const std::size_t twice = what.find(": At Most 1 required"); // as CLI11 says it
+        throw usageError(app, twice == std::string::npos ? what : what.substr(0, twice) + " is given more than once");
     }
     catch (const Error& error)
     {
