@@ -77,6 +77,7 @@ const std::vector<WrongUse>& wrongUses()
 
         {"InputIsADevice", 3, "render /dev/zero -o a.png", {"/dev/zero", "device"}},
         {"InputIsAPipe", 3, "render pipe.obj -o a.png", {"pipe.obj", "a pipe, not a file"}},
+        {"EmptyName", 3, {"render", "", "-o", "a.png"}, {"cannot read \"\": No such file"}},
         {"MissingFile", 3, "render absent.glb -o a.png", {"absent.glb", "No such file"}},
         {"BrokenGlb", 3, "render broken.glb -o a.png", {"broken.glb"}},
         {"EmptyFile", 3, "voxelize empty.glb -o a.ply", {"empty.glb"}},

@@ -21,8 +21,9 @@ constexpr std::size_t kFirstBlockBytes = std::size_t{1} << 16U;
 
 Error readError(const std::filesystem::path& path, int code)
 {
-    return {ErrorCode::Input, fmt::format("cannot read {}: {}; check the path and its permissions", path.string(),
-                                          std::generic_category().message(code))};
+    return {ErrorCode::Input,
+            fmt::format("cannot read {}: {}; check the path and its permissions", path.empty() ? "\"\"" : path.string(),
+                        std::generic_category().message(code))};
 }
 
 struct CloseFile
