@@ -204,7 +204,7 @@ TEST_F(CliTree, RefusalsAreOneLineWithTheirExitCode)
         {"render changed.zvo -o a.png", 3, "do not match their checksum"},
         {"convert changed.zvo -o a.ply", 3, "do not match their checksum"},
         {"validate text.zvo", 3, "not a .zvo file"},
-        {"validate cube.glb", 3, "not a .zvo file"},
+        {"validate cube.glb", 3, "zvo build makes one of a scene"},
         {"convert cube.glb -o a.ply", 3, "neither a .zvo nor a .vox file"},
         {"convert broken.vox -o a.zvo", 3, "cut short"},
         {"voxelize svo.zvo -o a.ply", 3, "svo.zvo: it holds voxels and no triangles"},

@@ -71,7 +71,7 @@ private:
         const std::size_t magic_bytes = std::min(bytes.size(), kZvoMagic.size());
         if (magic_bytes == 0 || std::memcmp(bytes.data(), kZvoMagic.data(), magic_bytes) != 0)
         {
-            fail("not a .zvo file: it does not begin as one");
+            fail("not a .zvo file: it does not begin as one; zvo build makes one of a scene");
         }
         if (bytes.size() < sizeof(header))
         {
