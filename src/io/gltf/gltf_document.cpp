@@ -61,17 +61,14 @@ constexpr std::array<std::string_view, 20> kAcceptedExtensions = {"EXT_instance_
                                                                   "KHR_xmp",
                                                                   "MSFT_texture_dds"};
 
-template <typename List, typename Item> bool contains(const List& list, const Item& item)
-{
-    return std::find(list.begin(), list.end(), item) != list.end();
-}
-
 void checkVersion(const json& document, const std::filesystem::path& path)
 {
-    const json* asset = document.is_object() && document.contains("asset") ? &document["asset"] : nullptr;
+    const json* asset = document.contains("asset") ? &document["asset"] : nullptr;
     if (asset == nullptr || !asset->is_object() || !asset->contains("version") || !(*asset)["version"].is_string())
     {
-        throw gltfError(path, "not a glTF file: asset.version is missing; check that it is glTF 2.0 (.gltf or .glb)");
+        throw gltfError(path, fmt::format("not a glTF file: asset.version is missing; {}",
+                                          document.contains("objects") ? "if it is a scene file, name it .scene.json"
+                                                                       : "check that it is glTF 2.0 (.gltf or .glb)"));
     }
     const auto minimum = asset->find("minVersion");
     const bool has_minimum = minimum != asset->end() && minimum->is_string();
@@ -386,7 +383,8 @@ std::string GltfDocument::reason(const Error& error) const
 
 bool GltfDocument::uses(std::string_view extension) const
 {
-    return contains(model.extensionsUsed, extension) || contains(model.extensionsRequired, extension);
+    const auto isIn = [&](const auto& list) { return std::ranges::find(list, extension) != list.end(); };
+    return isIn(model.extensionsUsed) || isIn(model.extensionsRequired);
 }
 
 void GltfWarnings::add(const std::string& kind, const std::string& where)

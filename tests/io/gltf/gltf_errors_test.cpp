@@ -51,6 +51,7 @@ TEST(GltfErrors, WhatIsNoGltfIsSaidToBeNone)
     expectBrokenFile("cut.gltf", "{\"asset\": {\n\"version\": \"2.", {"not a glTF file", "line 2"});
     expectBrokenFile("array.gltf", "[]", {"asset.version is missing"});
     expectBrokenFile("object.gltf", "{}", {"asset.version is missing"});
+    expectBrokenFile("scene.json", R"({"objects": []})", {"asset.version is missing", "name it .scene.json"});
     expectBrokenFile("utf8.gltf", "{\"asset\": {\"version\": \"\xff\"}}", {"not a glTF file", "\\xff"});
 }
 
