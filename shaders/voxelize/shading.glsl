@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The attributes of the fragments of a triangle, in integers (docs/voxelization.md).
-// Needs EDGE_INT, EDGE_IVEC3 and EDGE_WIDE as voxelize/raster.glsl does, the constants kMaterialClass, kEmits and
-// kMode, and params.scene.
+// Needs the constants kMaterialClass, kEmits and kMode, and params.scene.
 #ifndef ZVO_SHADERS_VOXELIZE_SHADING_GLSL
 #define ZVO_SHADERS_VOXELIZE_SHADING_GLSL
 
@@ -9,10 +8,6 @@
 #include "lib/attribute.glsl"
 #include "voxelize/loads.glsl"
 #include "voxelize/voxelize.h"
-
-#ifndef EDGE_IVEC3
-#error "voxelize/shading.glsl needs EDGE_IVEC3: ivec3 or i64vec3"
-#endif
 
 // Texture coordinates of the three vertices of a triangle, 16.16.
 struct TriangleUvs
