@@ -141,7 +141,7 @@ TEST_F(CliVox, AreKnownByTheirFirstBytes)
     m_dir.write("lamp", lampFile("_diffuse"));
     EXPECT_EQ(inspected("lamp")["voxels"], 3);
     run("render lamp -o a.png --size 8x8");
-    expectError("build lamp -o a.zvo", 3, {"lamp: a .vox file holds voxels", "zvo convert a.vox -o a.zvo"});
+    expectError("build lamp -o a.zvo", 3, {"lamp: it holds voxels", "zvo convert makes a .zvo file"});
     m_dir.write("teardown.vox", "VOX " + number(150) + "MAIN" + number(0) + number(13) + chunk("TDCZ", "x"));
     expectError("convert teardown.vox -o a.ply", 3, {"teardown.vox: ", "TDCZ", "Teardown"});
 }
