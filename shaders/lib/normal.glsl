@@ -91,8 +91,8 @@ const float kSeenFromBehind = 0.5;
 // sees is below this: a floor whose triangles are wound as a ceiling's.
 const float kAgainstFace = -0.5;
 
-// Normal of an attribute, turned round if the surface is seen from behind; face_normal if it has none. All faces of a
-// voxel have the same one, so neighbouring pixels do.
+// Normal of an attribute, turned round if the surface is seen from behind; face_normal if it has none. Nearly always all
+// faces of a voxel have the same one, so neighbouring pixels do.
 vec3 shadingNormal(uint code, vec3 face_normal, vec3 direction)
 {
     if (code == kNoNormal)
