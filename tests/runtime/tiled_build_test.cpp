@@ -74,7 +74,7 @@ TEST(TiledBuild, TakesSmallerTilesWhereMemoryIsShort)
     const Grid grid = Grid::around(scene.bounds(), 9);
     const TreeData expected = wholeDag(device(), uploadScene(device(), scene, true), grid, AttributeFormat::Blocks);
     std::uint32_t tile_count = 1;
-    for (const std::uint64_t budget : {18ULL << 20, 8ULL << 20})
+    for (const std::uint64_t budget : {14ULL << 20, 7ULL << 20})
     {
         vk::HeadlessOptions options = test::deviceOptions();
         options.memory_budget_bytes = budget;
