@@ -20,17 +20,19 @@ namespace
 {
 
 // What GPUs choose.
+vk::HeadlessOptions optionsLikeGpus()
+{
+    vk::HeadlessOptions options = test::deviceOptions();
+    options.tuning = {{"block-lanes", 16},
+                      {"brick-lanes", 8},
+                      {"mixed-sums", 0},
+                      {std::string(vk::kLoadsName), static_cast<std::uint32_t>(vk::LoadForm::Addresses)}};
+    return options;
+}
+
 vk::HeadlessDevice& deviceLikeGpus()
 {
-    static vk::HeadlessDevice device = []
-    {
-        vk::HeadlessOptions options = test::deviceOptions();
-        options.tuning = {{"block-lanes", 16},
-                          {"brick-lanes", 8},
-                          {"mixed-sums", 0},
-                          {std::string(vk::kLoadsName), static_cast<std::uint32_t>(vk::LoadForm::Addresses)}};
-        return vk::HeadlessDevice(options, zvoKernels());
-    }();
+    static vk::HeadlessDevice device(optionsLikeGpus(), zvoKernels());
     return device;
 }
 
@@ -88,6 +90,30 @@ TEST(Bricks, WithoutAttributesHaveTheOraclesVoxels)
                 buildOctree(test::device(), uploadScene(test::device(), scene, false), grid, {coverage, false}).octree;
             EXPECT_EQ(voxelCodes(test::device(), octree), oracle::voxelize(scene, grid, coverage).codes);
         }
+    }
+}
+
+// A cut-out fragment may have no leaf. What lies in its place, behind the nodes, would lead to addresses far outside of
+// the device's memory.
+TEST(Bricks, OfEmissiveSurfacesThatAreCutOutLoadNoLeafThatDoesNotExist)
+{
+    Scene scene = test::triangleSoup({{0.5F, 1.5F, 0.5F}, {0.5F, 1.5F, 3.5F}, {3.5F, 1.5F, 3.5F}}); // in the first leaf
+    Scene cut_out = test::triangleSoup({{12, 13.5F, 12}, {12, 13.5F, 15}, {15, 13.5F, 15}});        // in the last one
+    cut_out.materials[0].alpha_mode = AlphaMode::Mask;
+    cut_out.materials[0].base_color.a = 0;
+    scene.append(std::move(cut_out));
+    scene.materials[0].emission = glm::vec3(1);
+    scene.materials[1].emission = glm::vec3(1);
+    vk::HeadlessDevice device(optionsLikeGpus(), zvoKernels());
+    for (const std::uint32_t index : {1U << 31, 3U << 30, ~255U})
+    {
+        {
+            vk::BufferOf<std::uint32_t> garbage(device.device(), "garbage", std::uint64_t{1} << 22);
+            device.run([&](vk::FrameGraph& graph) { graph.fill(garbage, index); });
+        }
+        const DeviceTree octree = build(device, scene, Grid{glm::vec3(0), 1.0F, 4}, Coverage::Thin).octree;
+        EXPECT_EQ(octree.node_count, 2U);
+        EXPECT_EQ(octree.emission.count(), octree.voxel_count);
     }
 }
 
