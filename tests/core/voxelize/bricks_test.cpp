@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: MIT
 // Forms of voxelization give the same bytes, whatever the triangles.
+#include "core/base/morton.h"
+#include "oracle/octree_check.h"
 #include "oracle/voxelizer.h"
 #include "runtime/octree_sha256.h"
 #include "runtime/trees.h"
 #include "support/engine_device.h"
 #include "support/materials_scene.h"
+#include "support/octree_access.h"
 #include "support/scenes.h"
 
 #include <gtest/gtest.h>
@@ -174,6 +177,40 @@ TEST(Bricks, OfADeepGridAndOfATileGiveTheSameBytes)
     expectSameBytes(scene, Grid{glm::vec3(-8000), 1.0F, 14});
     expectSameBytes(scene, GridTile{Grid{glm::vec3(0), 1.0F, 7}, 5, glm::uvec3(1, 2, 0)});
     expectSameBytes(scene, GridTile{Grid{glm::vec3(0), 1.0F, 7}, 3, glm::uvec3(5, 4, 6)});
+}
+
+// In levels of so many nodes, sums of blocks are scanned in a pass of their own.
+TEST(Bricks, OfMoreThanHalfAMillionAreNumberedInOrder)
+{
+    constexpr std::uint32_t kBrickCount = (1U << 19) + 1;
+    Scene scene;
+    scene.materials.emplace_back();
+    scene.instances.emplace_back();
+    Primitive& cloud = scene.primitives.emplace_back();
+    cloud.is_points = true;
+    std::vector<std::uint64_t> codes; // of a voxel in each brick, one brick after the other
+    for (std::uint32_t brick = 0; brick < kBrickCount; ++brick)
+    {
+        codes.push_back((std::uint64_t{brick} << 12) | brick % 4096);
+        cloud.triangles.emplace_back(brick);
+        cloud.positions.push_back(glm::vec3(cellOfCode(codes.back())) + 0.5F);
+    }
+    BuildOptions options = {Coverage::Thin, false};
+    options.capacities = {.table = 1U << 20, .bricks = kBrickCount, .items = kBrickCount}; // else attempts take long
+    vk::HeadlessDevice& device = test::device();
+    const GpuScene uploaded = uploadScene(device, scene, false);
+    const DeviceTree octree = buildOctree(device, uploaded, Grid{glm::vec3(0), 1.0F, 11}, options).octree;
+    const oracle::OctreeContents contents = test::contentsOf(device, octree);
+    EXPECT_EQ(contents.violations, std::vector<std::string>());
+    EXPECT_TRUE(contents.codes == codes);
+    // Their first voxels: a leaf has one.
+    const std::vector<gpu::uvec2> groups = device.download(octree.leaf_groups);
+    const std::uint32_t first_word = 2 * octree.levels.back().first_node;
+    for (std::uint32_t i = 1; i < groups.size(); ++i)
+    {
+        const std::uint32_t word = std::max((i - 1) * gpu::kLeafGroup, first_word);
+        ASSERT_EQ(groups[i].x, word - first_word) << i;
+    }
 }
 
 TEST(Bricks, ThatAreCrowdedGiveTheSameBytes)
