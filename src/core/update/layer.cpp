@@ -6,7 +6,6 @@
 #include "core/base/tuning.h"
 #include "core/base/with_slack.h"
 #include "core/voxelize/fragment_sums.h"
-#include "voxelize/window.h"
 
 #include <algorithm>
 #include <bit>
@@ -121,7 +120,7 @@ void listLeaves(vk::FrameGraph& graph, const LayerJob& job)
     params.nodes = pass.write(layer.nodes);
     params.counters = pass.readWrite(layer.counters);
     params.reports = pass.readWrite(job.reports);
-    params.window = gpu::packWindow(job.grid.depth, job.grid.depth, gpu::uvec3(0));
+    params.window = windowOf(job.grid);
     params.brick_capacity = static_cast<std::uint32_t>(layer.firstLeaf());
     params.leaf_capacity = static_cast<std::uint32_t>(layer.leafCapacity());
     // Where no sums are kept, nothing limits their number.

@@ -4,7 +4,6 @@
 #include "core/base/divide_up.h"
 #include "core/base/tuning.h"
 #include "octree/octree.h"
-#include "voxelize/window.h"
 
 #include <cassert>
 #include <string_view>
@@ -50,7 +49,7 @@ void recordFragments(vk::FrameGraph& graph, const VoxelizeJob& job, RasterMode m
     params.emission_words =
         emits ? gpu::Ptr<gpu::uvec2>{pass.read(sums.emission_words).address} : pass.accumulate(sums.emission_words);
     params.emission_sums = emits ? pass.accumulate(sums.emission_sums) : gpu::Ptr<gpu::EmissionSums>{};
-    params.window = gpu::packWindow(job.tile.grid.depth, job.tile.depth, job.tile.index);
+    params.window = windowOf(job.tile);
     params.first_leaf = sums.first_leaf;
     params.first_item = static_cast<std::uint32_t>(first);
     params.item_end = static_cast<std::uint32_t>(first + count);

@@ -115,7 +115,7 @@ void binChunks(vk::FrameGraph& graph, const VoxelizeJob& job, MaterialClass mate
     params.counters = pass.readWrite(buffers.counters);
     params.origin = grid.origin;
     params.lattice_scale = latticeScale(grid);
-    params.window = gpu::packWindow(grid.depth, job.tile.depth, job.tile.index);
+    params.window = windowOf(job.tile);
     params.brick_mask = count32(buffers.table) - 1;
     params.chunk_count = static_cast<std::uint32_t>(count);
     params.setup_capacity = count32(buffers.setups);
@@ -137,7 +137,7 @@ void binLarge(vk::FrameGraph& graph, const VoxelizeJob& job)
                            .items = pass.accumulate(buffers.items), // each element once, in any order
                            .voxels = pass.accumulate(buffers.voxels),
                            .counters = pass.readWrite(buffers.counters),
-                           .window = gpu::packWindow(job.tile.grid.depth, job.tile.depth, job.tile.index),
+                           .window = windowOf(job.tile),
                            .brick_mask = count32(buffers.table) - 1,
                            .setup_capacity = count32(buffers.setups),
                            .large_capacity = count32(buffers.large),
@@ -181,7 +181,7 @@ void coverItems(vk::FrameGraph& graph, const VoxelizeJob& job, bool small, gpu::
                            .voxels = pass.accumulate(buffers.voxels), // a thread its own
                            .masks = pass.accumulate(buffers.masks),
                            .counters = pass.read(buffers.counters),
-                           .window = gpu::packWindow(job.tile.grid.depth, job.tile.depth, job.tile.index)},
+                           .window = windowOf(job.tile)},
                           divideUp(buffers.items.count(), gpu::kItemsGroup));
 }
 
@@ -281,6 +281,11 @@ std::map<std::string, std::uint64_t> droppedTriangles(const gpu::BinCounters& co
                                                     {"zero_area", counters.zero_area}};
     std::erase_if(dropped, [](const auto& entry) { return entry.second == 0; });
     return dropped;
+}
+
+std::uint32_t windowOf(const GridTile& tile)
+{
+    return gpu::packWindow(tile.grid.depth, tile.depth, tile.index);
 }
 
 void clearVoxels(vk::FrameGraph& graph, VoxelizeBuffers& buffers)

@@ -119,6 +119,9 @@ struct VoxelizeJob
     VoxelizeBuffers& buffers;
 };
 
+/// The `window` of kernels for a tile (voxelize/window.h).
+std::uint32_t windowOf(const GridTile& tile);
+
 /// Records the passes that clear all buffers, before triangles are put into bricks.
 void clearVoxels(vk::FrameGraph& graph, VoxelizeBuffers& buffers);
 
