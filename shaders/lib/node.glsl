@@ -97,9 +97,15 @@ bool isBehind(uint static_root, uint reference)
     return !isLeafWord(reference) && reference >= static_root;
 }
 
+// Whether the bit of a cell is set in masks as a node has them.
+bool hasCell(uvec2 mask, uint cell)
+{
+    return (((cell < 32u ? mask.x : mask.y) >> (cell & 31u)) & 1u) != 0u;
+}
+
 bool hasChild(Node node, uint cell)
 {
-    return (((cell < 32u ? node.mask_lo : node.mask_hi) >> (cell & 31u)) & 1u) != 0u;
+    return hasCell(uvec2(node.mask_lo, node.mask_hi), cell);
 }
 
 // The reference of the child in a cell or, in a leaf, the index of the voxel's attribute; for a missing one, what it

@@ -32,8 +32,7 @@ bool isOccupied(uvec3 voxel)
     for (uint level = 0u; go; ++level)
     {
         uint cell = cellInBlock(voxel >> (2u * (kNodeLevels - 1u - level)));
-        uvec2 mask = nodeMask(pool, reference);
-        occupied = (((cell < 32u ? mask.x : mask.y) >> (cell & 31u)) & 1u) != 0u;
+        occupied = hasCell(nodeMask(pool, reference), cell);
         go = occupied && level + 1u < kNodeLevels;
         if (go)
             reference = listedChild(pool, childIndex(pool.data[reference], cell), kEntriesPerWord);

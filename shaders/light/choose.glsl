@@ -104,7 +104,7 @@ float lightProbability(LightNode_ConstPtr nodes, LightBrick_ConstPtr bricks, Lit
         uint cell = cellInBlock(voxel >> (2u * (kNodeLevels - 1u - level)));
         uint bit = 1u << (cell & 31u);
         uint wanted = cell < 32u ? bitCount(mask.x & (bit - 1u)) : bitCount(mask.x) + bitCount(mask.y & (bit - 1u));
-        bool exists = ((cell < 32u ? mask.x : mask.y) & bit) != 0u;
+        bool exists = hasCell(mask, cell);
         uint count = bitCount(mask.x) + bitCount(mask.y);
         float total = 0.0;
         float wanted_weight = 0.0;
@@ -130,7 +130,7 @@ float lightProbability(LightNode_ConstPtr nodes, LightBrick_ConstPtr bricks, Lit
     }
     uvec2 exposed = bricks.data[nodes.data[node].first_child].exposed[face];
     uint cell = cellInBlock(voxel);
-    bool exists = (((cell < 32u ? exposed.x : exposed.y) >> (cell & 31u)) & 1u) != 0u;
+    bool exists = hasCell(exposed, cell);
     return exists && wanted_weight > 0.0
                ? probability * wanted_weight / (total * float(bitCount(exposed.x) + bitCount(exposed.y)))
                : 0.0;

@@ -60,7 +60,7 @@ uint expandChild(uint entry, uint cell, bool dag_leaves, out uint child)
     if (kRanks)
         params.ranks.data[child] = BeforeChild(base.voxels, base.rank);
     uint count = 0u;
-    if (((cell < 32u ? brick.mask_lo >> cell : brick.mask_hi >> (cell - 32u)) & 1u) != 0u)
+    if (hasCell(uvec2(brick.mask_lo, brick.mask_hi), cell))
     {
         BrickEntry child_brick;
         uint child_entry = brickFind(childKey(keyOf(brick), cell), child_brick);

@@ -43,7 +43,7 @@ uint leafIndex(Node brick, uint leaf)
 
 bool isMixed(MixedVoxels mixed, uint cell)
 {
-    return ((cell < 32u ? mixed.mask_lo : mixed.mask_hi) >> (cell & 31u) & 1u) != 0u;
+    return hasCell(uvec2(mixed.mask_lo, mixed.mask_hi), cell);
 }
 
 // The index of the sums of a mixed voxel.
