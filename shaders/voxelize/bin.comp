@@ -147,7 +147,14 @@ SmallVoxels coverSmall(RasterTriangle t, bool selected)
     return found;
 }
 
-// The columns with a voxel in a brick of eight: bit 0 of its number is along u, bit 1 along v, bit 2 along w.
+// Sets of the eight bricks that a small triangle may touch. Bit 0 of a brick's number is along u, bit 1 along v, bit 2
+// along w.
+const uint kAllBricks = 0xffu;
+const uint kFirstAlongU = 0x55u;
+const uint kFirstAlongV = 0x33u;
+const uint kFirstAlongW = 0x0fu;
+
+// The columns with a voxel in one of these bricks.
 uint columnsIn(SmallVoxels found, uint brick)
 {
     uvec3 others = found.upper ^ uvec3((brick & 1u) - 1u, ((brick >> 1) & 1u) - 1u, (brick >> 2) - 1u);
@@ -167,7 +174,8 @@ uint bricksOf(SmallVoxels found)
 uint bricksOf(RasterTriangle t)
 {
     bvec3 two = notEqual(t.low >> int(kBrickLog2), t.high >> int(kBrickLog2));
-    return 255u & (two.x ? ~0u : 0x55u) & (two.y ? ~0u : 0x33u) & (two.z ? ~0u : 0x0fu);
+    return (two.x ? kAllBricks : kFirstAlongU) & (two.y ? kAllBricks : kFirstAlongV) &
+           (two.z ? kAllBricks : kFirstAlongW);
 }
 
 // The places of the thread's setup, if wanted, and of the first of its items: two atomics for a subgroup.
