@@ -236,7 +236,7 @@ void takeTriangle(ChunkTriangle taken)
     }
 }
 
-// The last subgroup of a walk over chunks notes how many items are those of small triangles so far, and sizes
+// The last subgroup of a walk over chunks notes how many items there are so far, if their voxels are known, and sizes
 // voxelize/bin_large for what has been listed.
 void sizeLarge(uint group_count)
 {
@@ -246,7 +246,7 @@ void sizeLarge(uint group_count)
     {
         uint blocks = min(atomicOr(params.counters.data[0].large_count, 0u), params.large_capacity);
         if (kThin) // else the voxels of all items are still to be found
-            params.counters.data[0].small_items = atomicOr(params.counters.data[0].item_count, 0u);
+            params.counters.data[0].known_items = atomicOr(params.counters.data[0].item_count, 0u);
         params.counters.data[0].large = foldedArgs(largeGroups(blocks), kGroupsXMax);
         atomicExchange(params.counters.data[0].arrived, 0u);
     }

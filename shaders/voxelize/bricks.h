@@ -109,7 +109,7 @@ struct BinCounters
     uint listed_count; // bricks; 0 in a run that is thrown away
     uint item_count;
     uint item_carry;    // how often that wrapped around
-    uint small_items;   // of small triangles, which come first
+    uint known_items;   // those whose voxels voxelize/bin has found, which come first
     uint covered_items; // item_count; 0 in a run that is thrown away
     uint setup_count;
     uint blocks_exceeded; // 1: large triangles have more than kBlocksListMax blocks in all
@@ -125,8 +125,8 @@ struct BinCounters
     uint mixed_count;     // mixed voxels
     uint arrived;         // threads of the running dispatch (lib/arrivals.glsl); 0 in between
     DispatchArgs large;   // of voxelize/bin_large
-    DispatchArgs small;   // of voxelize/cover for items of small triangles
-    DispatchArgs cover;   // of large ones
+    DispatchArgs known;   // of voxelize/cover for items whose voxels are known
+    DispatchArgs cover;   // for the others
     DispatchArgs collect; // of voxelize/collect_bricks
     DispatchArgs leaves;  // of kBrickLanes threads for each listed brick, and one workgroup at least
 };
@@ -213,7 +213,7 @@ struct CoverParams // push constants of voxelize/cover: a thread an item
 #define VOXELIZE_COVER_CONSTANTS(CONSTANT)                                                                             \
     CONSTANT(0, bool, wide_keys, kWideKeys, false)                                                                     \
     CONSTANT(1, bool, mixed, kMixed, false)                                                                            \
-    CONSTANT(2, bool, small, kSmall, false) /* items of small triangles, whose voxels are known; else the others */    \
+    CONSTANT(2, bool, known, kKnown, false) /* items whose voxels are known; else the others */                        \
     CONSTANT(3, MaterialClass, material_class, kMaterialClass, kClassPlain)                                            \
     CONSTANT(4, Coverage, coverage, kCoverage, kCoverageConservative)                                                  \
     CONSTANT(5, bool, emits, kEmits, false)

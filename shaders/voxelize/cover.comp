@@ -94,15 +94,15 @@ void setItem(BrickItem item, BrickEntry entry, Voxels voxels, bool tests)
 
 void main()
 {
-    uint small_items = params.counters.data[0].small_items;
+    uint known_items = params.counters.data[0].known_items;
     uint end = params.counters.data[0].covered_items;
-    uint i = threadIndex() + (kSmall ? 0u : small_items);
-    if (i >= (kSmall ? min(small_items, end) : end))
+    uint i = threadIndex() + (kKnown ? 0u : known_items);
+    if (i >= (kKnown ? min(known_items, end) : end))
         return;
     BrickItem item = loadItem(i);
     BrickEntry entry = loadBrick(item.entry);
     Voxels voxels = knownVoxels(i);
-    if (!kSmall)
+    if (!kKnown)
     {
         voxels = coverColumns(itemTriangle(voxels.info, loadSetup(item.triangle), brickCorner(entry)));
         keepVoxels(i, voxels);

@@ -69,9 +69,9 @@ void main()
         params.counters.data[0].fits = fits ? 1u : 0u;
         params.counters.data[0].listed_count = listed;
         params.counters.data[0].covered_items = items;
-        uint small_items = min(params.counters.data[0].small_items, items);
-        params.counters.data[0].small = itemGroups(small_items);
-        params.counters.data[0].cover = itemGroups(items - small_items);
+        uint known_items = min(params.counters.data[0].known_items, items);
+        params.counters.data[0].known = itemGroups(known_items);
+        params.counters.data[0].cover = itemGroups(items - known_items);
         params.counters.data[0].collect = foldedArgs((listed + kBricksGroup - 1u) / kBricksGroup, params.max_groups_x);
         params.counters.data[0].leaves = foldedArgs(
             max((listed * kBrickLanes + kBricksGroup - 1u) / kBricksGroup, 1u), params.max_groups_x);

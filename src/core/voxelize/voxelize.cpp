@@ -162,12 +162,12 @@ void listBricks(vk::FrameGraph& graph, VoxelizeBuffers& buffers)
 }
 
 // args: of the workgroups for items whose voxels are known, or for the others.
-void coverItems(vk::FrameGraph& graph, const VoxelizeJob& job, bool small, gpu::DispatchArgs gpu::BinCounters::*args)
+void coverItems(vk::FrameGraph& graph, const VoxelizeJob& job, bool known, gpu::DispatchArgs gpu::BinCounters::*args)
 {
     VoxelizeBuffers& buffers = job.buffers;
     vk::Pass pass = graph.addPass(gpu::voxelize::Cover{.wide_keys = hasWideKeys(job.tile.grid),
                                                        .mixed = buffers.form.mixed,
-                                                       .small = small,
+                                                       .known = known,
                                                        .material_class = job.scene.uploaded().highestClass(),
                                                        .coverage = buffers.form.coverage,
                                                        .emits = buffers.form.emission});
@@ -320,7 +320,7 @@ void coverBricks(vk::FrameGraph& graph, const VoxelizeJob& job)
 {
     binLarge(graph, job);
     listBricks(graph, job.buffers);
-    coverItems(graph, job, true, &gpu::BinCounters::small);
+    coverItems(graph, job, true, &gpu::BinCounters::known);
     coverItems(graph, job, false, &gpu::BinCounters::cover);
 }
 
