@@ -156,6 +156,94 @@ void binColumn(RasterTriangle t, ivec2 column, CellBox voxels, LargeBlock large)
     }
 }
 
+// The walk of a thread over the columns of bricks of a block, part by part.
+struct BlockWalk
+{
+    ivec2 first; // column of the block
+    uvec2 size;  // its columns along u and v
+    uvec2 parts; // its parts
+    uint part_count;
+    uint part;         // the next one
+    uint lane;         // of the threads that share the block
+    ivec2 corner;      // of the part before the next one, in the block
+    uvec2 columns;     // of that part
+    uint column_count; // 0: the triangle does not touch it
+    uint next;         // of its columns
+};
+
+BlockWalk startBlock(RasterTriangle t, uint block, uint lane)
+{
+    uint number = bitfieldExtract(block, 0, int(kBlockLog2Shift));
+    uint log2 = block >> kBlockLog2Shift;
+    uint row_blocks = (uint(t.high.x - t.low.x) >> log2) + 1u;
+    BlockWalk walk;
+    walk.first = t.low.xy + ivec2(uvec2(number % row_blocks, number / row_blocks) << log2);
+    walk.size = min(uvec2(t.high.xy - walk.first + 1), uvec2(1u << log2));
+    walk.parts = ((walk.size - 1u) >> kBlockBricksLog2) + 1u;
+    walk.part_count = mayTouch(t, walk.first, walk.size) ? walk.parts.x * walk.parts.y : 0u;
+    walk.part = 0u;
+    walk.lane = lane;
+    walk.corner = ivec2(0);
+    walk.columns = uvec2(1u);
+    walk.column_count = 0u;
+    walk.next = 0u;
+    return walk;
+}
+
+bool isAtEnd(BlockWalk walk)
+{
+    return walk.next >= walk.column_count && walk.part >= walk.part_count;
+}
+
+// A step of a walk that is not at its end: to the part's next column or, after its last one, to the next part. Returns
+// whether it is a column that may have bricks.
+bool stepInBlock(RasterTriangle t, inout BlockWalk walk, out ivec2 column)
+{
+    bool is_column = walk.next < walk.column_count;
+    uint row = is_column ? divideSmall(walk.next, walk.columns.x) : divideSmall(walk.part, walk.parts.x);
+    ivec2 place = is_column ? walk.corner + ivec2(walk.next - row * walk.columns.x, row)
+                            : ivec2(walk.part - row * walk.parts.x, row) << int(kBlockBricksLog2);
+    uvec2 extent = is_column ? uvec2(1u) : min(walk.size - uvec2(place), uvec2(1u << kBlockBricksLog2));
+    column = walk.first + place;
+    bool touches = mayTouch(t, column, extent);
+    walk.next = is_column ? walk.next + kBlockLanes : walk.lane;
+    if (!is_column)
+    {
+        walk.corner = place;
+        walk.columns = extent;
+        walk.column_count = touches ? extent.x * extent.y : 0u;
+        ++walk.part;
+    }
+    return is_column && touches;
+}
+
+// Threads look for a column that may have bricks, each its own, and then take theirs together.
+void walkBlock(RasterTriangle t, CellBox voxels, LargeBlock large, BlockWalk walk)
+{
+    for (bool walking = !isAtEnd(walk); walking;)
+    {
+        bool found = false;
+        ivec2 column = ivec2(0);
+        for (bool searching = true; searching;)
+        {
+            found = stepInBlock(t, walk, column);
+            walking = !isAtEnd(walk);
+            searching = !found && walking;
+        }
+        if (found)
+            binColumn(t, column, voxels, large);
+    }
+}
+
+// The voxels of a triangle inside of the window.
+CellBox voxelsOf(TriangleSetup setup)
+{
+    ivec3 low = ivec3(0);
+    ivec3 high = ivec3(gridResolution() - 1);
+    clipToWindow(low, high);
+    return voxelBox(setup, low, high);
+}
+
 void main()
 {
     uint block_count = min(params.counters.data[0].large_count, params.large_capacity);
@@ -169,52 +257,8 @@ void main()
     if (large.triangle >= params.setup_capacity)
         return; // it has no setup: this run is thrown away
     TriangleSetup setup = loadSetup(large.triangle);
-    ivec3 window_low = ivec3(0);
-    ivec3 window_high = ivec3(gridResolution() - 1);
-    clipToWindow(window_low, window_high);
-    CellBox voxels = voxelBox(setup, window_low, window_high);
+    CellBox voxels = voxelsOf(setup);
     CellBox bricks = CellBox(voxels.low >> int(kBrickLog2), voxels.high >> int(kBrickLog2));
     RasterTriangle t = rasterTriangle(setup, bricks, gridResolution() >> int(kBrickLog2));
-    uint block = bitfieldExtract(large.block, 0, int(kBlockLog2Shift));
-    uint log2 = large.block >> kBlockLog2Shift;
-    uint row_blocks = (uint(t.high.x - t.low.x) >> log2) + 1u;
-    ivec2 first = t.low.xy + ivec2(uvec2(block % row_blocks, block / row_blocks) << log2);
-    uvec2 size = min(uvec2(t.high.xy - first + 1), uvec2(1u << log2));
-    uvec2 parts = ((size - 1u) >> kBlockBricksLog2) + 1u;
-    uint part_count = mayTouch(t, first, size) ? parts.x * parts.y : 0u;
-    uint lane = thread % kBlockLanes;
-    uint part = 0u; // the next one
-    ivec2 corner = ivec2(0);
-    uvec2 columns = uvec2(1u); // of the part before it, which begins at the corner
-    uint column_count = 0u;
-    uint next = 0u; // of its columns
-    // Threads look for a column that may have bricks, each its own, and then take theirs together.
-    for (bool walking = part_count != 0u; walking;)
-    {
-        bool found = false;
-        ivec2 column = ivec2(0);
-        for (bool searching = true; searching;)
-        {
-            bool is_column = next < column_count;
-            uint row = is_column ? divideSmall(next, columns.x) : divideSmall(part, parts.x);
-            ivec2 place = is_column ? corner + ivec2(next - row * columns.x, row)
-                                    : ivec2(part - row * parts.x, row) << int(kBlockBricksLog2);
-            uvec2 extent = is_column ? uvec2(1u) : min(size - uvec2(place), uvec2(1u << kBlockBricksLog2));
-            bool touches = mayTouch(t, first + place, extent);
-            found = is_column && touches;
-            column = first + place;
-            next = is_column ? next + kBlockLanes : lane;
-            if (!is_column)
-            {
-                corner = place;
-                columns = extent;
-                column_count = touches ? extent.x * extent.y : 0u;
-                ++part;
-            }
-            walking = next < column_count || part < part_count;
-            searching = !found && walking;
-        }
-        if (found)
-            binColumn(t, column, voxels, large);
-    }
+    walkBlock(t, voxels, large, startBlock(t, large.block, thread % kBlockLanes));
 }
