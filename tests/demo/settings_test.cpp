@@ -63,6 +63,9 @@ TEST(Settings, WhatIsWrittenIsRead)
         EXPECT_EQ(parseSettings(settingsText(settings), "s.json"), settings);
     }
     EXPECT_EQ(parseSettings(R"({"schema": "zvo.demo_settings/1"})", "s.json"), Settings{});
+    Settings given = otherSettings();
+    given.view.frame.exposure = {.automatic = false, .factor = 2.0F};
+    EXPECT_EQ(parseSettings(settingsText(given), "s.json").view.frame.exposure, Exposure()) << "an option's";
     Settings latin = otherSettings();
     latin.scenes.front().files = {"/caf\xe9.glb"};
     EXPECT_EQ(parseSettings(settingsText(latin), "s.json").scenes.back(), latin.scenes.back());

@@ -54,7 +54,7 @@ TEST_F(DemoWindow, PathsAddUpWhileNothingChanges)
     EXPECT_EQ(four, render(common + " --spp 4"));
     EXPECT_NE(one, four);
     EXPECT_EQ(shown(common + " --denoise", 2), render(common + " --denoise --spp 2"));
-    const std::string lens = " --bounces 2 --aperture 0.2 --focus 4 --environment none";
+    const std::string lens = " --bounces 2 --aperture 0.2 --focus 4 --sun 1,0.1,0.2 --exposure 0.5";
     EXPECT_EQ(shown(common + lens, 1), render(common + lens + " --spp 1"));
     const std::string moving = "moving.scene.json --integrator path" + kCamera + kSize;
     const std::string third = shown(moving + " --json stats.json", 3);
@@ -74,9 +74,10 @@ TEST_F(DemoWindow, RadianceCacheBeginsAsOnTheCommandLineAndGoesOn)
 
 TEST_F(DemoWindow, ALowerResolutionShowsPixelsOfItsPicture)
 {
-    show(kCube + kCamera + kSteady + kSize + " --internal-scale 0.5 --frames 1 --screenshot shown.png");
+    const std::string common = kCube + kCamera + " --exposure 0.5 --sun 1,1,0.2 --detail 3";
+    show(common + kSteady + kSize + " --internal-scale 0.5 --frames 1 --screenshot shown.png");
     const Image shown = pixels("shown.png");
-    run("render -o rendered.png --spp 1 --occlusion 4 --size 120x75 " + kCube + kCamera);
+    run("render -o rendered.png --spp 1 --occlusion 4 --size 120x75 " + common);
     const Image traced = pixels("rendered.png");
     ASSERT_EQ(shown.width, 240U);
     ASSERT_EQ(shown.height, 150U);

@@ -253,9 +253,10 @@ void App::rememberScene()
 {
     if (!m_is_first_world && !m_world_options.voxels.scenes.empty())
     {
-        const TraceOptions& trace = m_view.frame.trace;
-        remember(m_settings.scenes, {absoluteFiles(m_world_options.voxels.scenes), m_camera.camera(), m_bookmarks,
-                                     trace.to_sun, m_view.frame.exposure.factor});
+        const Exposure& exposure = m_view.frame.exposure;
+        remember(m_settings.scenes,
+                 {absoluteFiles(m_world_options.voxels.scenes), m_camera.camera(), m_bookmarks,
+                  m_view.frame.trace.to_sun, exposure.automatic ? exposure.factor : Exposure().factor});
     }
 }
 
@@ -269,7 +270,7 @@ bool App::recallScene()
         m_camera.setSubject(m_world->subject);
         m_bookmarks = memory->bookmarks;
         m_view.frame.trace.to_sun = memory->to_sun;
-        m_view.frame.exposure.factor = memory->exposure;
+        m_view.frame.exposure = {.factor = memory->exposure};
     }
     return memory != nullptr;
 }

@@ -83,6 +83,15 @@ Form<float> positive()
             [](float value) { return value > 0.0F ? Json(double{value}) : Json(); }};
 }
 
+// Of an option it is that of every picture, as of zvo render. Kept is only a factor beside the automatic one.
+Form<Exposure> exposure()
+{
+    return {[](std::string_view option, const std::string& argument)
+            { return Exposure{.automatic = false, .factor = parseUpTo(ViewState::kPositiveMax, option, argument)}; },
+            [](const JsonCursor& value) { return Exposure{.factor = positive().read(value)}; },
+            [](const Exposure& value) { return value.automatic ? Json(double{value.factor}) : Json(); }};
+}
+
 // A factor above 0 and at most 1, or nothing.
 Form<std::optional<double>> scale()
 {
@@ -199,8 +208,9 @@ std::vector<ViewSetting> makeSettings()
             {kViewGroup, "DISTANCE", "of the plane in focus, in world units (default 1)"}, showFocus,
             byPathsThroughALens),
         setting(
-            "exposure", [](auto& view) -> auto& { return view.frame.exposure.factor; }, positive(),
-            {kViewGroup, "FACTOR", "brightness (default 1)"}, showExposure, withLight),
+            "exposure", [](auto& view) -> auto& { return view.frame.exposure; }, exposure(),
+            {kViewGroup, "FACTOR", "brightness (default: automatic, times the panel's factor)"}, showExposure,
+            withLight),
         setting(
             "detail", [](auto& view) -> auto& { return view.frame.trace.detail_pixels; }, positive(),
             {kViewGroup, "PIXELS", "rays stop at octree nodes up to this many pixels wide"}, showDetail, byPrimaryRays),
