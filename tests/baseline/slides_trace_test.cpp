@@ -160,10 +160,10 @@ std::vector<ViewCamera> viewsOf(const Scene& scene)
     const Bounds bounds = scene.bounds();
     const glm::dvec3 center = glm::dvec3(bounds.min + bounds.max) * 0.5;
     const glm::dvec3 size = bounds.max - bounds.min;
-    ViewCamera orthographic = ViewCamera::framing(scene, kAspect);
+    ViewCamera orthographic = ViewCamera::framing(bounds, kAspect);
     orthographic.orthographic = true;
     orthographic.half_height = 0.6 * glm::length(size);
-    return {ViewCamera::framing(scene, kAspect), orthographic,
+    return {ViewCamera::framing(bounds, kAspect), orthographic,
             ViewCamera::lookAt(center + size * glm::dvec3(0.13, 0.07, -0.11),
                                center - size * glm::dvec3(0.4, 0.17, 0.05), 1.3)};
 }

@@ -149,7 +149,7 @@ LimitedRun runUnder(std::uint64_t limit, const Scene& scene, std::uint32_t depth
         const Grid grid = Grid::around(scene.bounds(), depth);
         const BuildResult result = buildOctree(limited, gpu_scene, grid, {Coverage::Thin, attributes, {}});
         run.sha = octreeSha256(limited, result.octree);
-        const TraceCamera camera = traceCamera(ViewCamera::framing(scene, 64.0 / 48.0), grid, 48);
+        const TraceCamera camera = traceCamera(ViewCamera::framing(scene.bounds(), 64.0 / 48.0), grid, 48);
         run.image = test::takePicture(limited, result.octree, camera, 64, 48, {}).image;
     }
     catch (const Error& error)

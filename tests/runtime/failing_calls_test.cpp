@@ -88,7 +88,7 @@ std::string work(vk::HeadlessDevice& device, const Job& job)
             buildOctree(device, gpu_scene, grid, {Coverage::Thin, job.attributes, job.capacities}).octree;
         TraceOptions options;
         options.shadows = job.attributes;
-        const TraceCamera camera = traceCamera(ViewCamera::framing(job.scene, 1.0), grid, kEdge);
+        const TraceCamera camera = traceCamera(ViewCamera::framing(job.scene.bounds(), 1.0), grid, kEdge);
         const test::Picture picture = test::takePicture(device, octree, camera, kEdge, kEdge, options);
         result = octreeSha256(device, octree);
         for (const gpu::uint pixel : picture.image)

@@ -56,7 +56,8 @@ Made make(const vk::SliceOptions& slices, const Scene& scene, std::uint32_t dept
         TraceBuffers buffers(device.device(), kWidth, kHeight);
         TraceOptions trace_options;
         trace_options.occlusion_rays = 2;
-        const TraceCamera camera = traceCamera(ViewCamera::framing(scene, 1.0 * kWidth / kHeight), grid, kHeight);
+        const TraceCamera camera =
+            traceCamera(ViewCamera::framing(scene.bounds(), 1.0 * kWidth / kHeight), grid, kHeight);
         count(made.pass_counts, device.run(
                                     [&](vk::FrameGraph& graph)
                                     {

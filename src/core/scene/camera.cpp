@@ -4,6 +4,7 @@
 #include "zvo/error.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <fmt/format.h>
 #include <numbers>
@@ -33,56 +34,43 @@ void setAxes(ViewCamera& camera, const glm::dvec3& direction)
     camera.up = glm::cross(camera.right, camera.forward);
 }
 
-/// The nearest camera with a given direction that shows a set of points.
-///
-/// In the camera's axes, with forward as z, a camera at c shows the points for which |x - c.x| <= t.x (z - c.z) and
-/// |y - c.y| <= t.y (z - c.z). Per axis and side that bounds one linear function of c by its maximum over the points.
-class Frame
+using Points = std::array<glm::dvec3, 8>; // in a camera's axes: right, up, forward
+
+// The largest depth of a camera that shows the points within a part of its picture. Along x, a camera at c shows those
+// for which |x - c.x| <= tangent * (z - c.z): of c.x - tangent * c.z and of -c.x - tangent * c.z that bounds each.
+double depthShowing(const Points& points, int axis, double tangent)
 {
-public:
-    explicit Frame(double aspect, const glm::dvec3& direction = kFramingDirection)
+    double high = -INFINITY;
+    double low = -INFINITY;
+    for (const glm::dvec3& point : points)
     {
-        m_camera.vertical_fov = kFramingFov;
-        setAxes(m_camera, direction);
-        const double tangent = kFramingFill * std::tan(0.5 * kFramingFov);
-        m_tangent = {tangent * aspect, tangent};
+        high = std::max(high, point[axis] - tangent * point.z);
+        low = std::max(low, -point[axis] - tangent * point.z);
     }
+    return -0.5 * (high + low) / tangent;
+}
 
-    void include(const glm::dvec3& point)
+// Where a camera at that depth has as much of the picture on both sides of the points: in the middle of the two that
+// are farthest apart in its picture.
+double centerShowing(const Points& points, int axis, double depth)
+{
+    double most = -1.0;
+    double center = 0.0;
+    for (const glm::dvec3& a : points)
     {
-        const glm::dvec2 across(glm::dot(point, m_camera.right), glm::dot(point, m_camera.up));
-        const double depth = glm::dot(point, m_camera.forward);
-        if (!isFinite(point))
+        for (const glm::dvec3& b : points)
         {
-            return;
+            const double sum = a.z - depth + b.z - depth;
+            const double tangent = (a[axis] - b[axis]) / sum;
+            if (tangent > most)
+            {
+                most = tangent;
+                center = (a[axis] * (b.z - depth) + b[axis] * (a.z - depth)) / sum;
+            }
         }
-        m_high = glm::max(m_high, across - m_tangent * depth);
-        m_low = glm::max(m_low, -across - m_tangent * depth);
-        m_nearest = std::min(m_nearest, depth);
     }
-
-    [[nodiscard]] ViewCamera camera() const
-    {
-        if (!std::isfinite(m_nearest))
-        {
-            return m_camera; // there are no points
-        }
-        const glm::dvec2 across = 0.5 * (m_high - m_low);
-        const glm::dvec2 depths = -0.5 * (m_high + m_low) / m_tangent;
-        double depth = std::min(depths.x, depths.y);
-        depth = depth < m_nearest ? depth : m_nearest - 1.0; // a single point
-        ViewCamera camera = m_camera;
-        camera.position = across.x * camera.right + across.y * camera.up + depth * camera.forward;
-        return camera;
-    }
-
-private:
-    ViewCamera m_camera;
-    glm::dvec2 m_tangent{1.0};
-    glm::dvec2 m_high{-INFINITY};
-    glm::dvec2 m_low{-INFINITY};
-    double m_nearest = INFINITY;
-};
+    return center;
+}
 
 } // namespace
 
@@ -128,19 +116,6 @@ ViewCamera ViewCamera::lookAt(const glm::dvec3& eye, const glm::dvec3& target, d
     return view;
 }
 
-ViewCamera ViewCamera::framing(const Scene& scene, double aspect)
-{
-    Frame frame(aspect);
-    for (const Instance& instance : scene.instances)
-    {
-        for (const glm::vec3& position : scene.primitives.at(instance.primitive).positions)
-        {
-            frame.include(transformPoint(instance.transform, position));
-        }
-    }
-    return frame.camera();
-}
-
 ViewCamera ViewCamera::framing(const Bounds& bounds, double aspect)
 {
     return framing(bounds, aspect, kFramingDirection);
@@ -148,13 +123,27 @@ ViewCamera ViewCamera::framing(const Bounds& bounds, double aspect)
 
 ViewCamera ViewCamera::framing(const Bounds& bounds, double aspect, const glm::dvec3& direction)
 {
-    Frame frame(aspect, direction);
-    for (int corner = 0; corner < 8; ++corner)
+    ViewCamera camera;
+    camera.vertical_fov = kFramingFov;
+    setAxes(camera, direction);
+    if (!isFinite(bounds.min) || !isFinite(bounds.max))
     {
-        frame.include({(corner & 1) != 0 ? bounds.max.x : bounds.min.x, (corner & 2) != 0 ? bounds.max.y : bounds.min.y,
-                       (corner & 4) != 0 ? bounds.max.z : bounds.min.z});
+        return camera; // nothing to show
     }
-    return frame.camera();
+    const glm::dmat3 axes(camera.right, camera.up, camera.forward);
+    Points points;
+    double nearest = INFINITY;
+    for (int i = 0; i < 8; ++i)
+    {
+        const glm::bvec3 side((i & 1) != 0, (i & 2) != 0, (i & 4) != 0);
+        points.at(i) = glm::dvec3(glm::mix(bounds.min, bounds.max, side)) * axes;
+        nearest = std::min(nearest, points.at(i).z);
+    }
+    const double tangent = kFramingFill * std::tan(0.5 * kFramingFov);
+    const double depth = std::min(depthShowing(points, 0, tangent * aspect), depthShowing(points, 1, tangent));
+    const double at = depth < nearest ? depth : nearest - 1.0; // a single point
+    camera.position = axes * glm::dvec3(centerShowing(points, 0, at), centerShowing(points, 1, at), at);
+    return camera;
 }
 
 ViewCamera ViewCamera::turnedAround(const glm::dvec3& center, double radians) const

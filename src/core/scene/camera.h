@@ -31,11 +31,8 @@ struct ViewCamera
     /// Error{Usage} if eye and target are the same point or not finite, or if vertical_fov is not inside (0, pi).
     static ViewCamera lookAt(const glm::dvec3& eye, const glm::dvec3& target, double vertical_fov);
 
-    /// A three-quarter view from the front, right and above, so near that the scene's vertices just fit into a picture
-    /// whose width is aspect times its height.
-    static ViewCamera framing(const Scene& scene, double aspect);
-
-    /// The same for the corners of a box.
+    /// A three-quarter view from the front, right and above, so near that a box just fits into a picture whose width is
+    /// aspect times its height, and in its middle.
     static ViewCamera framing(const Bounds& bounds, double aspect);
 
     /// The same along any direction but 0.

@@ -97,7 +97,7 @@ std::string lossText(const Loss& loss)
 
 std::vector<gpu::uint> pictureOf(const DeviceTree& octree, const Scene& scene)
 {
-    const ViewCamera view = scene.cameras.empty() ? ViewCamera::framing(scene, double{kWidth} / kHeight)
+    const ViewCamera view = scene.cameras.empty() ? ViewCamera::framing(scene.bounds(), double{kWidth} / kHeight)
                                                   : ViewCamera::of(scene.cameras.front());
     return test::takePicture(device(), octree, traceCamera(view, octree.grid, kHeight), kWidth, kHeight, {}).image;
 }

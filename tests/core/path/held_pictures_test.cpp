@@ -38,7 +38,7 @@ Place placeOf(const std::string& name)
     const Grid grid = Grid::around(scene.bounds(), 7);
     const GpuScene uploaded = uploadScene(test::device(), scene, true);
     return {buildOctree(test::device(), uploaded, grid, {}).octree,
-            scene.cameras.empty() ? ViewCamera::framing(scene, double{kHeldWidth} / kHeldHeight)
+            scene.cameras.empty() ? ViewCamera::framing(scene.bounds(), double{kHeldWidth} / kHeldHeight)
                                   : ViewCamera::of(scene.cameras.front())};
 }
 

@@ -264,7 +264,7 @@ TEST_P(PathScenes, HaveFinitePixels)
     const GpuScene uploaded = uploadScene(device(), *scene, true, brightestEmission(*scene));
     const DeviceTree tree = buildOctree(device(), uploaded, grid, {}).octree;
     std::vector<DeviceEnvironment> lights = allLights();
-    Pictures pictures(tree, ViewCamera::framing(*scene, 1.0), all ? 64 : 12);
+    Pictures pictures(tree, ViewCamera::framing(scene->bounds(), 1.0), all ? 64 : 12);
     glm::vec3 sum(0.0F);
     for (std::uint32_t seed = 0; seed < kSeeds; ++seed)
     {

@@ -44,7 +44,7 @@ TunedResults resultsWith(const Scene& scene, const vk::TuningValues& tuning)
     PathTracer paths(device.device());
     paths.resize(20, 12);
     DeviceEnvironment sky(device.device());
-    const ViewCamera view = ViewCamera::framing(scene, 40.0 / 24.0);
+    const ViewCamera view = ViewCamera::framing(scene.bounds(), 40.0 / 24.0);
     device.run([&](vk::FrameGraph& graph) { tracer.trace(graph, octree, traceCamera(view, grid, 24), {}); });
     device.run([&](vk::FrameGraph& graph)
                { paths.addSample(graph, octree, sky, traceCamera(view, grid, 12), PathOptions()); });
