@@ -71,7 +71,7 @@ std::string whyNoVoxels(const std::map<std::string, std::uint64_t>& dropped, con
     const auto countOf = [&](const char* reason) { return dropped.contains(reason) ? dropped.at(reason) : 0; };
     const std::uint64_t thin = countOf("zero_area");
     add(countOf("outside") + countOf("out_of_range"), "lie outside of the grid");
-    add(countOf("nonfinite"), "have corners that are not finite");
+    add(countOf("nonfinite"), "have coordinates that are not finite");
     rest -= std::min(thin, rest); // are added last
     for (const auto& [material, count] : counts.transparent)
     {
@@ -254,7 +254,7 @@ bool warnOfDropped(std::uint64_t voxel_count, const std::map<std::string, std::u
     }
     for (const auto& [reason, count] : senselessAmong(dropped))
     {
-        lines.push_back(fmt::format("{} left out ({})", counted(count, "triangle"), reason));
+        lines.push_back(fmt::format("{} of {} left out ({})", count, counts.told(), reason));
     }
     warnOrRefuse(lines, strict);
     return !lines.empty();
@@ -269,7 +269,7 @@ bool warnOfDroppedTriangles(double seconds, const std::map<std::string, std::uin
     }
     if (!counts.empty())
     {
-        talk(fmt::format("warning: at {:g} s, triangles of what moves left out: {}", seconds, fmt::join(counts, ", ")));
+        talk(fmt::format("warning: at {:g} s, left out of what moves: {}", seconds, fmt::join(counts, ", ")));
     }
     return !counts.empty();
 }

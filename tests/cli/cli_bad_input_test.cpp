@@ -175,7 +175,7 @@ TEST_F(CliBadInput, TrianglesThatAreNotFiniteAreCountedAndTheRestIsUsed)
     m_dir.write("odd.glb", builder.glb());
     EXPECT_FALSE(contains(run("voxelize cube.glb -o cube.morton --resolution 8").err, "warning"));
     EXPECT_TRUE(contains(run("voxelize odd.glb -o odd.morton --resolution 8").err,
-                         "warning: 3 triangles left out (nonfinite)"));
+                         "warning: 3 of 16 triangles left out (nonfinite)"));
     EXPECT_EQ(file("odd.morton"), file("cube.morton"));
 }
 

@@ -87,6 +87,8 @@ TEST_F(CliFormats, PointsOfTextBecomeCubesOfVoxels)
     std::ranges::sort(expected);
     EXPECT_EQ(codes("cloud.morton"), expected);
     expectError("voxelize cloud.xyz -o a.morton --point-size 17", 2, {"--point-size", "16"});
+    m_dir.write("odd.xyz", std::string_view("0 0 0\nnan 0 0\n2 1 inf\n9 9 9\n"));
+    EXPECT_TRUE(contains(run("voxelize odd.xyz -o odd.morton").err, "warning: 2 of 4 points left out (nonfinite)\n"));
 }
 
 TEST_F(CliFormats, EmissionThatIsLeftOutIsNamed)

@@ -307,14 +307,14 @@ TEST_F(CliSceneFile, TrianglesOfWhatMovesThatMakeNoSenseAreToldOfOnce)
 
     const std::string told = render("broken.scene.json");
     EXPECT_EQ(told.find("warning"), told.rfind("warning")) << told;
-    EXPECT_TRUE(contains(told, "warning: at 0 s, triangles of what moves left out: 2 (nonfinite)\n")) << told;
+    EXPECT_TRUE(contains(told, "warning: at 0 s, left out of what moves: 2 (nonfinite)\n")) << told;
     json report = jsonFile("report.json");
     EXPECT_EQ(report["scene"]["dropped"], json::object());
     EXPECT_EQ(report["frames"][1]["dropped"]["nonfinite"], 2);
 
     const std::string later = render("grows.scene.json");
     EXPECT_EQ(later.find("warning"), later.rfind("warning")) << later;
-    EXPECT_TRUE(contains(later, "warning: at 0.5 s, triangles of what moves left out: 12 (out_of_range)\n")) << later;
+    EXPECT_TRUE(contains(later, "warning: at 0.5 s, left out of what moves: 12 (out_of_range)\n")) << later;
     report = jsonFile("report.json");
     EXPECT_FALSE(report["frames"][1]["dropped"].contains("out_of_range"));
     EXPECT_EQ(report["frames"][2]["dropped"]["out_of_range"], 12);
