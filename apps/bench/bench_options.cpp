@@ -193,7 +193,7 @@ void addTreeAndDevice(CLI::App& app, BenchOptions& options)
     addCoverageOption(app, options.coverage);
     addAttributesOption(app, options.attributes);
     addDeviceOptions(app, options.device);
-    addText(app, "--json", options.output.json, "FILE|-", "write a report; - is standard output, without the table")
+    addOutput(app, "--json", options.output.json, "FILE|-", "write a report; - is standard output, without the table")
         ->group("Output");
     app.add_flag("-f,--force", options.output.overwrite, "overwrite files that exist")->group("Output");
 }

@@ -42,6 +42,18 @@ CLI::Option* addText(CLI::App& app, const char* name, std::string& target, const
     return app.add_option(name, target, what)->type_name(type);
 }
 
+CLI::Option* addOutput(CLI::App& app, const std::string& name, std::string& target, const char* type, const char* what)
+{
+    const auto check = [option = name.substr(0, name.find(','))](const std::string& file)
+    {
+        if (file.empty())
+        {
+            throw Error(ErrorCode::Usage, option + " needs a file's name");
+        }
+    };
+    return addText(app, name.c_str(), target, type, what)->each(check);
+}
+
 std::string oneOf(std::string_view option, std::string_view text, std::initializer_list<std::string_view> names)
 {
     if (std::ranges::find(names, text) == names.end())
@@ -196,8 +208,8 @@ CLI::Option* addTimeOfDayOption(CLI::App& app, const std::function<void(const gl
 
 void addOutputOptions(CLI::App& app, OutputOptions& options, const char* what)
 {
-    addText(app, "-o,--output", options.path, "FILE", what)->required()->group("Output");
-    addText(app, "--json", options.json, "FILE|-", "write a report; - is standard output")->group("Output");
+    addOutput(app, "-o,--output", options.path, "FILE", what)->required()->group("Output");
+    addOutput(app, "--json", options.json, "FILE|-", "write a report; - is standard output")->group("Output");
     app.add_flag("-f,--force", options.overwrite, "overwrite files that exist")->group("Output");
     addQuietOption(app);
 }

@@ -41,6 +41,9 @@ CLI::Option* addNamed(CLI::App& app, const char* name, Target& target, const Nam
 
 CLI::Option* addText(CLI::App& app, const char* name, std::string& target, const char* type, const char* what);
 
+/// The same for a file to write, whose name must not be empty.
+CLI::Option* addOutput(CLI::App& app, const std::string& name, std::string& target, const char* type, const char* what);
+
 void addFolder(CLI::App& app, const char* name, std::optional<std::filesystem::path>& folder, const std::string& what);
 
 /// Returns text, which must be one of names. Throws Error{Usage}.

@@ -248,8 +248,8 @@ void addOptions(CLI::App& convert, ConvertOptions& options)
 {
     convert.add_option("FILE", options.file, "a .zvo or .vox file")->required()->type_name("FILE");
     addStructureOption(convert, options.structure, kStructureHelp);
-    addText(convert, "-o,--output", options.output.path, "FILE",
-            "a .ply, .vox, .morton, .glb, .nvdb or .zvo file; - is standard output")
+    addOutput(convert, "-o,--output", options.output.path, "FILE",
+              "a .ply, .vox, .morton, .glb, .nvdb or .zvo file; - is standard output")
         ->required()
         ->group("Output");
     convert.add_flag("-f,--force", options.output.overwrite, "overwrite a file that exists")->group("Output");

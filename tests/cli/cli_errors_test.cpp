@@ -30,6 +30,8 @@ const std::vector<WrongUse>& wrongUses()
         {"UnknownFlag", 2, "render cube.glb -o a.png --colour", {"--colour", "zvo render --help"}},
         {"NoScene", 2, "render -o a.png", {"SCENE"}},
         {"NoOutput", 2, "render cube.glb", {"--output"}},
+        {"OutputWithoutAName", 2, {"voxelize", "cube.glb", "--format", "ply", "-o", ""}, {"-o needs a file's name"}},
+        {"ReportWithoutAName", 2, {"render", "cube.glb", "-o", "a.png", "--json", ""}, {"--json needs a file's name"}},
         {"ResolutionOfNoPowerOfTwo", 2, "render cube.glb -o a.png --resolution 500", {"500", "power of two"}},
         {"ResolutionTooHigh", 2, "render cube.glb -o a.png --resolution 262144", {"262144", "131072"}},
         {"TuningOfNothing", 2, "render cube.glb -o a.png --tuning rows=3", {"--tuning rows=3", "block-lanes"}},

@@ -129,9 +129,9 @@ void addScriptOptions(CLI::App& app, DemoOptions& options)
         ->group(kGroup);
     cli::addValue(app, "--record-input", options.record_input, cli::parsePath, "FILE", "write the user's input events")
         ->group(kGroup);
-    cli::addText(app, "--screenshot", options.screenshot, "FILE", "write the last frame of --frames as a PNG file")
+    cli::addOutput(app, "--screenshot", options.screenshot, "FILE", "write the last frame of --frames as a PNG file")
         ->group(kGroup);
-    cli::addText(app, "--json", options.json, "FILE|-", "write statistics; - is standard output")->group(kGroup);
+    cli::addOutput(app, "--json", options.json, "FILE|-", "write statistics; - is standard output")->group(kGroup);
     app.add_flag("-f,--force", options.overwrite, "overwrite files that exist")->group(kGroup);
 }
 
