@@ -103,12 +103,24 @@ void Progress::begin(std::string_view what)
 {
     m_operation = std::min(m_operation + 1, m_operation_count);
     m_what = what;
-    draw(0, m_what);
+    m_start = Clock::now();
+    within(0);
 }
 
 void Progress::within(double done, std::string_view count)
 {
-    draw(std::clamp(done, 0.0, 1.0), count.empty() ? m_what : fmt::format("{}, {}", m_what, count));
+    m_done = std::clamp(done, 0.0, 1.0);
+    draw(m_done, count.empty() ? m_what : fmt::format("{}, {}", m_what, count));
+}
+
+void Progress::goOn() const
+{
+    constexpr double kPatienceSeconds = 3;
+    const std::chrono::duration<double> seconds = Clock::now() - m_start;
+    if (seconds.count() >= kPatienceSeconds)
+    {
+        draw(m_done, fmt::format("{}, {:.0f} s", m_what, seconds.count()));
+    }
 }
 
 void Progress::draw(double done, std::string_view what) const

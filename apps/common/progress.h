@@ -2,6 +2,7 @@
 // Messages and progress on standard error.
 #pragma once
 
+#include <chrono>
 #include <cstddef>
 #include <exception>
 #include <functional>
@@ -54,12 +55,19 @@ public:
     /// Sets how much of the operation is done: 0 to 1. count: the same in words, such as "3/64 samples".
     void within(double done, std::string_view count = {});
 
+    /// Shows that an operation goes on, by its seconds once it has taken some.
+    void goOn() const;
+
 private:
+    using Clock = std::chrono::steady_clock;
+
     void draw(double done, std::string_view what) const;
 
     std::size_t m_operation_count;
     std::size_t m_operation = 0; // the current operation, counted from 1
     std::string m_what;
+    double m_done = 0; // of it
+    Clock::time_point m_start;
 };
 
 } // namespace zvo::cli

@@ -211,9 +211,14 @@ private:
                                                          m_options.voxels.load.strict);
             report(built);
         };
-        StaticPart part =
-            makeStaticPart(m_device, std::move(scene), grid,
-                           {m_options.voxels.coverage, m_options.voxels.hasAttributes(), {}}, structure(), listener);
+        StaticPart part;
+        m_device.withPauses([this] { m_progress.goOn(); }, m_options.device.dispatch_ms,
+                            [&]
+                            {
+                                part = makeStaticPart(m_device, std::move(scene), grid,
+                                                      {m_options.voxels.coverage, m_options.voxels.hasAttributes(), {}},
+                                                      structure(), listener);
+                            });
         if (structure() == TreeStructure::Svdag)
         {
             m_report.addDag(part);

@@ -38,7 +38,7 @@ class VoxelRun
 {
 public:
     VoxelRun(const VoxelOptions& voxels, const DeviceOptions& device, const OutputOptions& outputs)
-        : output(outputs.path, outputs.overwrite), m_report(openReport(outputs))
+        : output(outputs.path, outputs.overwrite), m_report(openReport(outputs)), m_submission_ms(device.dispatch_ms)
     {
         progress.begin("loading");
         AnimatedScene animated =
@@ -63,6 +63,12 @@ public:
     [[nodiscard]] GpuScene& scene() { return *m_scene; }
     void freeScene() { m_scene.reset(); }
 
+    // Calls work, of which the progress bar shows that it goes on.
+    void watch(const std::function<void()>& work)
+    {
+        m_device->withPauses([this] { progress.goOn(); }, m_submission_ms, work);
+    }
+
     // Completes the files. json: makes the report, if one was asked for.
     void finish(const std::function<Json()>& json)
     {
@@ -85,6 +91,7 @@ public:
 
 private:
     std::optional<Output> m_report;
+    double m_submission_ms;
     std::shared_ptr<vk::HeadlessDevice> m_device;
     std::optional<GpuScene> m_scene;
 };
@@ -179,8 +186,13 @@ void voxelize(const VoxelizeOptions& options)
     vk::HeadlessDevice& device = run.device();
 
     run.progress.begin("voxelizing");
-    const BuildResult result =
-        buildOctree(device, run.scene(), run.grid, {options.voxels.coverage, options.voxels.hasAttributes(), {}});
+    BuildResult result;
+    run.watch(
+        [&]
+        {
+            result = buildOctree(device, run.scene(), run.grid,
+                                 {options.voxels.coverage, options.voxels.hasAttributes(), {}});
+        });
     warnOfDropped(result.octree.voxel_count, result.dropped, run.counts, options.voxels.load.strict);
 
     run.progress.begin("writing");
@@ -208,7 +220,8 @@ void buildFile(const BuildFileOptions& options)
 
     run.progress.begin("building");
     const bool is_dag = options.structure == TreeStructure::Svdag;
-    const Built built = is_dag ? buildSvdag(run, options) : buildSvo(run, options);
+    Built built;
+    run.watch([&] { built = is_dag ? buildSvdag(run, options) : buildSvo(run, options); });
     run.freeScene();
     warnOfDropped(built.tree.voxel_count, built.dropped, run.counts, options.voxels.load.strict);
 
