@@ -79,14 +79,18 @@ void benchBuild(const BenchBuildOptions& options)
                             buildColumns(), std::nullopt, std::nullopt};
     const auto measure = [&](vk::HeadlessDevice& device, const BenchSubject& subject, BenchRow& row)
     {
-        BuildRuns runs = measureBuild(device, subject.uploaded, subject.grid,
-                                      {options.coverage, options.attributes, {}}, options.run_count);
+        BuildRuns runs = measureBuild(
+            device, subject.uploaded, subject.grid,
+            {.coverage = options.coverage, .attributes = options.attributes, .fill = options.fill}, options.run_count);
         row.peak_device_bytes = device.device().memory().peakBytes();
         row.voxelize_ms = runs.voxelize_ms;
         row.build_ms = runs.build_ms;
         row.passes = std::move(runs.passes);
         row.setSizes(runs.last.octree);
-        withDag(row, [&] { measureCompress(device, runs.last.octree, options.run_count, row); });
+        if (options.fill == Fill::None)
+        {
+            withDag(row, [&] { measureCompress(device, runs.last.octree, options.run_count, row); });
+        }
     };
     measureRows(options, table, measure);
 }

@@ -204,6 +204,7 @@ void addOptions(CLI::App& app, BenchBuildOptions& options)
     addResolutions(app, options, "256,512,1024");
     addRuns(app, options);
     addPassesFlag(app, options);
+    addFillOption(app, options.fill);
     addLoadOptions(app, options.load);
     addTreeAndDevice(app, options);
 }

@@ -58,6 +58,7 @@ struct PictureSizeOptions
 
 struct BenchBuildOptions : PassBenchOptions
 {
+    Fill fill = Fill::None; // filled octrees are not compressed
 };
 
 struct BenchRaysOptions : PassBenchOptions

@@ -105,7 +105,7 @@ DagSize DagSize::of(const DeviceTree& dag)
 
 void BenchRow::setSizes(const DeviceTree& octree)
 {
-    voxels = octree.voxel_count;
+    voxels = octree.occupiedCount();
     nodes = octree.node_count;
     geometry_bytes = octree.geometryBytes();
     attribute_bytes = octree.attributeBytes();

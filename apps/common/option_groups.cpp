@@ -96,6 +96,13 @@ void addCoverageOption(CLI::App& app, Coverage& coverage)
              "thin or conservative");
 }
 
+void addFillOption(CLI::App& app, Fill& fill)
+{
+    addNamed(app, "--fill", fill, kFills,
+             "also the voxels that surfaces enclose: whose winding number is not 0, or odd (default none)",
+             "none, solid or parity");
+}
+
 void addAttributesOption(CLI::App& app, bool& attributes)
 {
     static constexpr auto kNames = std::to_array<Named<bool>>({{"full", true}, {"none", false}});

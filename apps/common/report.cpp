@@ -79,6 +79,7 @@ Json headJson(const std::string& schema, const vk::DeviceReport& device, const V
     json["grid"] = gridJson(grid);
     json["resolution"] = grid.resolution();
     json["coverage"] = coverageName(options.coverage);
+    json["fill"] = nameOf(kFills, options.fill);
     json["attributes"] = options.hasAttributes() ? "full" : "none";
     json["snapping"] = "lattice256";
     return json;
@@ -92,7 +93,8 @@ Json octreeJson(const std::string& schema, const vk::DeviceReport& device, const
     const Grid& grid = octree.grid;
     Json json = headJson(schema, device, options, grid);
     json["scene"] = sceneJson(counts, result.dropped);
-    json["voxels"] = octree.voxel_count;
+    json["voxels"] = octree.occupiedCount();
+    json["interior_voxels"] = octree.interior_count;
     json["bricks"] = octree.levels.empty() ? 0U : octree.levels.back().node_count;
     json["nodes"] = octree.node_count;
     json["bytes"] = {

@@ -2,6 +2,7 @@
 // Options that the programs share: devices, scenes, outputs.
 #pragma once
 
+#include "core/octree/octree_builder.h"
 #include "core/scene/scene.h"
 #include "core/tree/attribute_format.h"
 #include "io/scene/load_scene.h"
@@ -48,12 +49,17 @@ struct VoxelOptions
     std::optional<std::uint32_t> depth;                 // not given: the scene file's, or 9
     std::optional<std::uint32_t> margin;                // free voxels around the scene; not given: 0
     Coverage coverage = TreeBuildInfo().coverage;
+    Fill fill = Fill::None;
     AttributeFormat attributes = AttributeFormat::Bytes8; // of the voxels; packed formats only for build
     std::optional<Bounds> bounds;                         // the cube from this box's minimum corner on
     std::optional<GridPosition> grid_position;            // exactly this grid; neither: the cube around the scene
     bool ground = false; // a disc below the scene, in a cube that is twice as wide unless the grid is given
 
     [[nodiscard]] bool hasAttributes() const { return attributes != AttributeFormat::None; }
+    [[nodiscard]] BuildOptions build() const
+    {
+        return {.coverage = coverage, .attributes = hasAttributes(), .fill = fill};
+    }
 };
 
 /// What a scene is lit by, in pictures with samples.

@@ -260,6 +260,19 @@ bool warnOfDropped(std::uint64_t voxel_count, const std::map<std::string, std::u
     return !lines.empty();
 }
 
+bool warnOfOpenLines(std::uint32_t open_lines, bool strict)
+{
+    if (open_lines != 0)
+    {
+        warnOrRefuse(
+            {fmt::format("the surfaces are open, or reach out of the grid: {} of voxels {} inside below all of "
+                         "them, so that what is filled there may be wrong",
+                         counted(open_lines, "vertical line"), open_lines == 1 ? "is" : "are")},
+            strict);
+    }
+    return open_lines != 0;
+}
+
 bool warnOfDroppedTriangles(double seconds, const std::map<std::string, std::uint64_t>& dropped)
 {
     std::vector<std::string> counts;

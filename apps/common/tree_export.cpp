@@ -31,7 +31,7 @@ std::string plyHeader(const TreeData& tree)
 {
     std::string header = fmt::format("ply\nformat binary_little_endian 1.0\nelement vertex {}\n"
                                      "property float x\nproperty float y\nproperty float z\n",
-                                     tree.voxel_count);
+                                     tree.occupiedCount());
     if (tree.hasAttributes())
     {
         header += "property float nx\nproperty float ny\nproperty float nz\n"
@@ -60,12 +60,12 @@ void writeMorton(const TreeData& tree, Output& output)
 {
     const WriteBytes write = into(output);
     ByteCollector bytes;
-    forEachVoxel(tree,
-                 [&](std::uint64_t code)
-                 {
-                     bytes.add(code);
-                     bytes.passOn(write);
-                 });
+    forEachCell(tree,
+                [&](std::uint64_t code, bool)
+                {
+                    bytes.add(code);
+                    bytes.passOn(write);
+                });
     write(bytes.bytes());
 }
 
@@ -75,17 +75,17 @@ void writePly(const TreeData& tree, Output& output)
     ByteCollector bytes;
     bytes.addText(plyHeader(tree));
     std::size_t voxel = 0;
-    forEachVoxel(tree,
-                 [&](std::uint64_t code)
-                 {
-                     bytes.add(voxelCenter(tree.grid, code));
-                     if (tree.hasAttributes())
-                     {
-                         addAttribute(bytes, tree.voxelAttribute(voxel));
-                     }
-                     ++voxel;
-                     bytes.passOn(write);
-                 });
+    forEachCell(tree,
+                [&](std::uint64_t code, bool on_surface)
+                {
+                    bytes.add(voxelCenter(tree.grid, code));
+                    if (tree.hasAttributes())
+                    {
+                        addAttribute(bytes, on_surface ? tree.voxelAttribute(voxel) : tree.interiorAttribute());
+                    }
+                    voxel += on_surface ? 1 : 0;
+                    bytes.passOn(write);
+                });
     write(bytes.bytes());
 }
 

@@ -55,6 +55,7 @@ void checkTreeOptions(const RenderOptions& options)
         {"--resolution", voxels.depth.has_value()},
         {"--margin", voxels.margin.has_value()},
         {"--coverage", voxels.coverage != plain.coverage},
+        {"--fill", voxels.fill != plain.fill},
         {"--attributes", voxels.attributes != plain.attributes},
         {"--bounds", voxels.bounds.has_value()},
         {"--grid", voxels.grid_position.has_value()},

@@ -93,7 +93,7 @@ void voxelize(const VoxelizeOptions& options);
 struct BuildFileOptions
 {
     VoxelOptions voxels;
-    TreeStructure structure = TreeStructure::Svdag;
+    std::optional<TreeStructure> structure; // not given: a DAG, or what is filled, an octree
     DeviceOptions device;
     OutputOptions output;
 };

@@ -77,7 +77,7 @@ void convert(const ConvertOptions& options)
         checkValidation(*device);
     }
     output.finish();
-    tellRun(fmt::format("{} of {}^3", counted(tree.voxel_count, "voxel"), tree.grid.resolution()));
+    tellRun(fmt::format("{} of {}^3", counted(tree.occupiedCount(), "voxel"), tree.grid.resolution()));
 }
 
 } // namespace zvo::cli

@@ -71,7 +71,8 @@ Inspected readWithSha256(const std::filesystem::path& path)
 
 double perVoxel(std::uint64_t bytes, const TreeData& tree)
 {
-    return tree.voxel_count == 0 ? 0.0 : static_cast<double>(bytes) / tree.voxel_count;
+    const std::uint64_t count = tree.occupiedCount();
+    return count == 0 ? 0.0 : static_cast<double>(bytes) / static_cast<double>(count);
 }
 
 Json inspectJson(const TreeData& tree, const TreeStats& stats, const std::string& sha256)
@@ -85,7 +86,8 @@ Json inspectJson(const TreeData& tree, const TreeStats& stats, const std::string
     json["schema"] = "zvo.inspect/1";
     json["structure"] = structureName(tree.structure);
     json["grid"] = gridJson(tree.grid);
-    json["voxels"] = tree.voxel_count;
+    json["voxels"] = tree.occupiedCount();
+    json["interior_voxels"] = tree.interior_count;
     json["nodes"] = tree.nodes.size();
     json["nodes_per_level"] = levels;
     json["geometry_bytes"] = tree.geometryBytes();
@@ -128,7 +130,8 @@ std::string summaryText(const Inspected& inspected)
     }
     add("grid", fmt::format("{}^3 from ({}, {}, {}) on, voxels of {}", tree.grid.resolution(), tree.grid.origin.x,
                             tree.grid.origin.y, tree.grid.origin.z, tree.grid.voxel_size));
-    add("voxels", fmt::format("{}", tree.voxel_count));
+    add("voxels", tree.isFilled() ? fmt::format("{}, {} of them inside", tree.occupiedCount(), tree.interior_count)
+                                  : fmt::format("{}", tree.voxel_count));
     add("nodes", fmt::format("{} for the {} of the octree", tree.nodes.size(), tree.octree_node_count));
     add("attributes", attributesText(tree, is_vox));
     add("sha256", sha256);
@@ -201,7 +204,7 @@ void validate(const ValidateOptions& options)
         }
     }
     Output("-", true).write(fmt::format("{}: sound, {} with {} of {}^3, {}\n", options.file.string(),
-                                        structureName(tree.structure), counted(tree.voxel_count, "voxel"),
+                                        structureName(tree.structure), counted(tree.occupiedCount(), "voxel"),
                                         tree.grid.resolution(),
                                         tree.hasAttributes() ? "with attributes" : "without attributes"));
 }

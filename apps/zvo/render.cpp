@@ -92,6 +92,11 @@ public:
     // Voxelizes the static part once, and merges dynamic objects with it at each time.
     void play(AnimatedScene&& animated, const Grid& grid, const Cameras& cameras)
     {
+        if (m_options.voxels.fill != Fill::None)
+        {
+            throw Error(ErrorCode::Usage,
+                        "--fill does not go with moving objects, unless all is built anew: --rebuild");
+        }
         m_progress.begin("voxelizing what stands still");
         m_counts = SceneCounts::of(animated.fixed, grid, m_options.voxels.coverage);
         LiveScene scene(m_device, std::move(animated), grid,
@@ -207,16 +212,16 @@ private:
         listener.built = [&](const BuildResult& built)
         {
             // Only once, not for each frame.
-            m_has_warned = m_has_warned || warnOfDropped(built.octree.voxel_count, built.dropped, m_counts,
-                                                         m_options.voxels.load.strict);
+            m_has_warned =
+                m_has_warned ||
+                warnOfDropped(built.octree.voxel_count, built.dropped, m_counts, m_options.voxels.load.strict) ||
+                warnOfOpenLines(built.open_lines, m_options.voxels.load.strict);
             report(built);
         };
         StaticPart part;
         m_device.withPauses([this] { m_progress.goOn(); }, m_options.device.dispatch_ms,
-                            [&]
-                            {
-                                part = makeStaticPart(m_device, std::move(scene), grid,
-                                                      {m_options.voxels.coverage, m_options.voxels.hasAttributes(), {}},
+                            [&] {
+                                part = makeStaticPart(m_device, std::move(scene), grid, m_options.voxels.build(),
                                                       structure(), listener);
                             });
         if (structure() == TreeStructure::Svdag)

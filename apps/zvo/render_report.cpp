@@ -27,8 +27,8 @@ Json updateFrame(std::uint32_t number, double seconds, const LiveUpdate& update)
 void RenderReport::addOctree(const BuildResult& result, const SceneCounts& counts)
 {
     m_built = fmt::format("{} of {}^3 from {}; voxelize {:.1f} ms, build {:.1f} ms",
-                          counted(result.octree.voxel_count, "voxel"), result.octree.grid.resolution(), counts.told(),
-                          result.operationMs("voxelize"), result.operationMs("octree"));
+                          counted(result.octree.occupiedCount(), "voxel"), result.octree.grid.resolution(),
+                          counts.told(), result.operationMs("voxelize"), result.operationMs("octree"));
     if (!m_options.output.json.empty())
     {
         m_json = octreeJson("zvo.render/1", m_device.device().report(), m_options.voxels, counts, result,
@@ -48,13 +48,13 @@ void RenderReport::addDag(const StaticPart& part)
 
 void RenderReport::addFile(const TreeData& tree)
 {
-    m_built = fmt::format("{} of {}^3 in {}", counted(tree.voxel_count, "voxel"), tree.grid.resolution(),
+    m_built = fmt::format("{} of {}^3 in {}", counted(tree.occupiedCount(), "voxel"), tree.grid.resolution(),
                           counted(tree.nodes.size(), "node"));
     m_json = headJson("zvo.render_tree/1", m_device.device().report());
     m_json["structure"] = structureName(tree.structure);
     m_json["grid"] = gridJson(tree.grid);
     m_json["resolution"] = tree.grid.resolution();
-    m_json["voxels"] = tree.voxel_count;
+    m_json["voxels"] = tree.occupiedCount();
     m_json["nodes"] = tree.nodes.size();
     m_json["bytes"] = {{"geometry", tree.geometryBytes()}, {"attributes", tree.attributeBytes()}};
     m_json["passes"] = Json::array();

@@ -139,6 +139,7 @@ void addPathOptions(CLI::App& render, RenderOptions& options)
 void addOptions(CLI::App& render, RenderOptions& options)
 {
     addVoxelOptions(render, options.voxels, "; or one .zvo or .vox file, which needs no voxelizing");
+    addFillOption(render, options.voxels.fill);
     addAttributesOption(render, options.voxels.attributes);
     render
         .add_option_function<std::string>(
@@ -204,6 +205,7 @@ void addOptions(CLI::App& render, RenderOptions& options)
 void addOptions(CLI::App& voxelize, VoxelizeOptions& options)
 {
     addVoxelOptions(voxelize, options.voxels);
+    addFillOption(voxelize, options.voxels.fill);
     addAttributesOption(voxelize, options.voxels.attributes);
     addOutputOptions(voxelize, options.output, "the voxels, a .morton or .ply file; - is standard output");
     addValue(
@@ -219,6 +221,7 @@ void addOptions(CLI::App& voxelize, VoxelizeOptions& options)
 void addOptions(CLI::App& build, BuildFileOptions& options)
 {
     addVoxelOptions(build, options.voxels);
+    addFillOption(build, options.voxels.fill);
     addStructureOption(build, options.structure, kStructureHelp);
     static constexpr auto kAttributeFormats =
         std::to_array<Named<AttributeFormat>>({{"none", AttributeFormat::None},

@@ -128,16 +128,20 @@ struct Built
     std::vector<vk::PassTime> passes;
     std::uint32_t retry_count = 0;
     std::uint32_t tile_count = 1;
+    std::uint32_t open_lines = 0;
 };
 
 Built buildSvo(VoxelRun& run, const BuildFileOptions& options)
 {
-    BuildResult result =
-        buildOctree(run.device(), run.scene(), run.grid, {options.voxels.coverage, options.voxels.hasAttributes(), {}});
+    BuildResult result = buildOctree(run.device(), run.scene(), run.grid, options.voxels.build());
     const std::vector<vk::PassTime> packing = packTree(run.device(), options.voxels.attributes, result.octree);
     result.passes.insert(result.passes.end(), packing.begin(), packing.end());
-    return {downloadTree(run.device(), result.octree), std::move(result.dropped), std::move(result.passes),
-            result.retry_count};
+    return {downloadTree(run.device(), result.octree),
+            std::move(result.dropped),
+            std::move(result.passes),
+            result.retry_count,
+            1,
+            result.open_lines};
 }
 
 Built buildSvdag(VoxelRun& run, const BuildFileOptions& options)
@@ -156,7 +160,8 @@ Json builtJson(VoxelRun& run, const BuildFileOptions& options, const Built& buil
     json["scene"] = sceneJson(run.counts, built.dropped);
     json["structure"] = structureName(tree.structure);
     json["attribute_form"] = formatName(tree.attributeFormat());
-    json["voxels"] = tree.voxel_count;
+    json["voxels"] = tree.occupiedCount();
+    json["interior_voxels"] = tree.interior_count;
     json["nodes"] = tree.octree_node_count;
     json["nodes_stored"] = tree.nodes.size();
     json["tiles"] = built.tile_count;
@@ -187,13 +192,9 @@ void voxelize(const VoxelizeOptions& options)
 
     run.progress.begin("voxelizing");
     BuildResult result;
-    run.watch(
-        [&]
-        {
-            result = buildOctree(device, run.scene(), run.grid,
-                                 {options.voxels.coverage, options.voxels.hasAttributes(), {}});
-        });
+    run.watch([&] { result = buildOctree(device, run.scene(), run.grid, options.voxels.build()); });
     warnOfDropped(result.octree.voxel_count, result.dropped, run.counts, options.voxels.load.strict);
+    warnOfOpenLines(result.open_lines, options.voxels.load.strict);
 
     run.progress.begin("writing");
     {
@@ -208,30 +209,38 @@ void voxelize(const VoxelizeOptions& options)
                               octreeSha256(device, result.octree), device.device().memory().peakBytes());
         });
     tellRun(fmt::format("{} of {}^3 from {}; voxelize {:.1f} ms, build {:.1f} ms on {}",
-                        counted(result.octree.voxel_count, "voxel"), run.grid.resolution(), run.counts.told(),
+                        counted(result.octree.occupiedCount(), "voxel"), run.grid.resolution(), run.counts.told(),
                         result.operationMs("voxelize"), result.operationMs("octree"), device.device().report().name));
 }
 
 void buildFile(const BuildFileOptions& options)
 {
     checkName(options.output);
+    const bool is_filled = options.voxels.fill != Fill::None;
+    const bool is_dag =
+        options.structure.value_or(is_filled ? TreeStructure::Svo : TreeStructure::Svdag) == TreeStructure::Svdag;
+    if (is_filled && is_dag)
+    {
+        throw Error(ErrorCode::Usage, "--fill goes with --structure svo alone");
+    }
     checkPaths(options.output, options.voxels.scenes);
     VoxelRun run(options.voxels, options.device, options.output);
 
     run.progress.begin("building");
-    const bool is_dag = options.structure == TreeStructure::Svdag;
     Built built;
     run.watch([&] { built = is_dag ? buildSvdag(run, options) : buildSvo(run, options); });
     run.freeScene();
     warnOfDropped(built.tree.voxel_count, built.dropped, run.counts, options.voxels.load.strict);
+    warnOfOpenLines(built.open_lines, options.voxels.load.strict);
 
     run.progress.begin("writing");
     writeZvo(built.tree, [&run](std::span<const std::byte> bytes) { run.output.write(bytes); });
     run.finish([&] { return builtJson(run, options, built); });
     tellRun(fmt::format(
         "{} of {}^3 from {}; {} bytes of nodes, {} of attributes; voxelize {:.1f} ms, build {:.1f} ms{}{} on {}",
-        counted(built.tree.voxel_count, "voxel"), run.grid.resolution(), run.counts.told(), built.tree.geometryBytes(),
-        built.tree.attributeBytes(), operationMs(built.passes, "voxelize"), operationMs(built.passes, "octree"),
+        counted(built.tree.occupiedCount(), "voxel"), run.grid.resolution(), run.counts.told(),
+        built.tree.geometryBytes(), built.tree.attributeBytes(), operationMs(built.passes, "voxelize"),
+        operationMs(built.passes, "octree"),
         is_dag ? fmt::format(", compress {:.1f} ms", operationMs(built.passes, "svdag")) : "",
         isPacked(options.voxels.attributes) ? fmt::format(", pack {:.1f} ms", operationMs(built.passes, "attributes"))
                                             : "",

@@ -36,6 +36,15 @@ enum
     ZVO_COVERAGE_THIN = 1          ///< 6-separating: no path along the voxels' faces leads through the surface
 };
 
+/// Which voxels count as inside the triangles, by the winding number of their centres (docs/voxelization.md#filling).
+typedef uint32_t ZvoFill;
+enum
+{
+    ZVO_FILL_NONE = 0,  ///< no voxel: the surface is all there is
+    ZVO_FILL_SOLID = 1, ///< those whose winding number is not 0
+    ZVO_FILL_PARITY = 2 ///< those whose winding number is odd
+};
+
 /// How the nodes of a tree are connected. The values are those in files (docs/file-format.md).
 typedef uint32_t ZvoTreeStructure;
 enum
@@ -151,6 +160,13 @@ enum class Coverage : ZvoCoverage
 {
     Conservative = ZVO_COVERAGE_CONSERVATIVE,
     Thin = ZVO_COVERAGE_THIN,
+};
+
+enum class Fill : ZvoFill
+{
+    None = ZVO_FILL_NONE,
+    Solid = ZVO_FILL_SOLID,
+    Parity = ZVO_FILL_PARITY,
 };
 
 enum class TreeStructure : ZvoTreeStructure

@@ -350,10 +350,13 @@ typedef struct ZvoTreeBuildInfo
     ZvoCoverage coverage;
     ZvoAttributeFormat format;
     VkBool32 keep_sums;
+    ZvoFill fill;
+    uint32_t reserved;
 } ZvoTreeBuildInfo;
 
 #define ZVO_TREE_BUILD_INFO_INIT                                                                                       \
-    ZVO_STRUCT_INIT(ZvoTreeBuildInfo, ZVO_GRID_INIT, ZVO_COVERAGE_THIN, ZVO_ATTRIBUTE_FORMAT_BYTES8, VK_FALSE)
+    ZVO_STRUCT_INIT(ZvoTreeBuildInfo, ZVO_GRID_INIT, ZVO_COVERAGE_THIN, ZVO_ATTRIBUTE_FORMAT_BYTES8, VK_FALSE,         \
+                    ZVO_FILL_NONE, 0)
 
 /// Triangles that were left out, by reason.
 typedef struct ZvoDroppedTriangles

@@ -85,16 +85,25 @@ Attribute unpackBlock(uint_ConstPtr words, uint index)
                      unpackBlockNormal(words.data[first + kBlockNormals], planes, voxel));
 }
 
-// The attribute of a voxel or, where voxel is not set, of a node.
-Attribute readAttribute(uint format, bool voxel, Attribute_ConstPtr voxels, Attribute_ConstPtr nodes, uint index)
+Attribute readStored(uint format, uint64_t address, uint index)
 {
-    if (format == kFormatBlocks && voxel)
-        return unpackBlock(uint_ConstPtr(uint64_t(voxels)), index);
-    uint64_t address = voxel ? uint64_t(voxels) : uint64_t(nodes);
     if (format != kFormat8)
         return unpackAttribute4(uint_ConstPtr(address).data[index]);
     uvec2 stored = unpackUint2x32(uint64_t_ConstPtr(address).data[index]);
     return Attribute(stored.x, stored.y);
+}
+
+// The attribute of a voxel or, where voxel is not set, of a node.
+Attribute readAttribute(uint format, bool voxel, Attribute_ConstPtr voxels, Attribute_ConstPtr nodes, uint index)
+{
+    if (index >= kInteriorIndex) // what is inside has the mean colour of all
+    {
+        Attribute mean = readStored(format, uint64_t(nodes), 0u);
+        return Attribute(mean.color & 0xffffffu, kNoNormal);
+    }
+    if (format == kFormatBlocks && voxel)
+        return unpackBlock(uint_ConstPtr(uint64_t(voxels)), index);
+    return readStored(format, voxel ? uint64_t(voxels) : uint64_t(nodes), index);
 }
 
 #endif

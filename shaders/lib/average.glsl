@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The attribute of an inner node: the mean of its children's, which stand together and have equal weights.
+// The attribute of an inner node: the mean of its children's, which stand together and have equal weights, but for those
+// that have none (kAttributeNone).
 //
 // A thread takes a node or, on devices with threads to spare, several do: its lanes, which stand side by side in a
 // workgroup. Sums are integers, so that any number of lanes gives the same bytes.
@@ -22,7 +23,7 @@
 #endif
 
 const uint kChildrenAtOnce = 4u; // that a lane loads before it looks at them
-const uint kSumWords = 7u;
+const uint kSumWords = 8u;
 
 // The number of this lane in its node, and of its node in the workgroup.
 uint laneOfNode()
@@ -40,7 +41,10 @@ struct ChildSums
     uvec3 color;
     ivec3 normal;
     uint flags;
+    uint without; // children without attributes, which add nothing else
 };
+
+const uint kFlagsShift = 24u; // of a colour
 
 shared uint s_child_sums[kLanes > 1u ? gl_WorkGroupSize.x / kLanes * kSumWords : 1u];
 
@@ -59,11 +63,18 @@ Attribute loadChild(AVERAGE_CHILDREN children, uint i)
 }
 #endif
 
+bool hasNone(Attribute child)
+{
+    return (child.color & (kAttributeNone << kFlagsShift)) != 0u;
+}
+
 void addChild(LinearTable to_linear, Attribute child, inout ChildSums sums)
 {
-    sums.color += linearColor(to_linear, child.color);
+    bool is_none = hasNone(child);
+    sums.without += is_none ? 1u : 0u;
+    sums.color += is_none ? uvec3(0u) : linearColor(to_linear, child.color);
     sums.normal += decodeNormal(child.normal);
-    sums.flags |= child.color >> 24;
+    sums.flags |= child.color >> kFlagsShift;
 }
 
 // Adds kChildrenAtOnce children to the sums, of which the first exists.
@@ -80,7 +91,9 @@ void addChildren(LinearTable to_linear, AVERAGE_CHILDREN children, uvec4 indices
         c = loadChild(children, indices.z);
     if (exists.w)
         d = loadChild(children, indices.w);
-    sums.flags |= (a.color | b.color | c.color | d.color) >> 24;
+    sums.flags |= (a.color | b.color | c.color | d.color) >> kFlagsShift;
+    uvec4 without = uvec4(hasNone(a), hasNone(b), hasNone(c), hasNone(d));
+    sums.without += without.x + without.y + without.z + without.w;
     sums.normal += decodeNormal(a.normal) + (exists.y ? decodeNormal(b.normal) : ivec3(0)) +
                    (exists.z ? decodeNormal(c.normal) : ivec3(0)) + (exists.w ? decodeNormal(d.normal) : ivec3(0));
     uvec3 color_a = linearColor(to_linear, a.color);
@@ -110,6 +123,7 @@ void addLanes(inout ChildSums sums)
             s_child_sums[at + 3u + axis] = uint(sums.normal[axis]);
         }
         s_child_sums[at + 6u] = sums.flags;
+        s_child_sums[at + 7u] = sums.without;
     }
     barrier();
     if (!is_first)
@@ -120,6 +134,7 @@ void addLanes(inout ChildSums sums)
             atomicAdd(s_child_sums[at + 3u + axis], uint(sums.normal[axis]));
         }
         atomicOr(s_child_sums[at + 6u], sums.flags);
+        atomicAdd(s_child_sums[at + 7u], sums.without);
     }
     barrier();
     [[unroll]] for (uint axis = 0u; axis < 3u; ++axis)
@@ -128,15 +143,16 @@ void addLanes(inout ChildSums sums)
         sums.normal[axis] = int(s_child_sums[at + 3u + axis]);
     }
     sums.flags = s_child_sums[at + 6u];
+    sums.without = s_child_sums[at + 7u];
 }
 
-// The mean of the attributes of a node's children, for each of its lanes; of a node without children, black. Call in
-// uniform control flow.
+// The mean of the attributes of a node's children, for each of its lanes; of a node without any, none. Call in uniform
+// control flow.
 Attribute averageChildren(SceneView_ConstPtr scene, Node node, AVERAGE_CHILDREN children)
 {
     LinearTable to_linear = LINEAR_TABLE(scene);
     uint count = bitCount(node.mask_lo) + bitCount(node.mask_hi);
-    ChildSums sums = ChildSums(uvec3(0u), ivec3(0), 0u);
+    ChildSums sums = ChildSums(uvec3(0u), ivec3(0), 0u, 0u);
     if (kLanes == 1u)
     {
         for (uint i = 0u; i < count; ++i)
@@ -152,12 +168,14 @@ Attribute averageChildren(SceneView_ConstPtr scene, Node node, AVERAGE_CHILDREN 
         }
         addLanes(sums);
     }
+    count -= sums.without;
+    uint flags = count == 0u ? kAttributeNone : sums.flags & ~kAttributeNone;
     uint divisor = max(count, 1u); // lanes without a node look up a color like all others
     uvec3 color = divideSmall(sums.color + divisor / 2u, divisor);
     // The absolute values of the components of each normal add up to kNormalOne. So the mean is measured by theirs.
     uvec3 size = uvec3(abs(sums.normal));
     bool is_short = (size.x + size.y + size.z) * kNoNormalRatio < divisor * uint(kNormalOne);
-    return Attribute(packColor(scene, color, sums.flags), is_short ? kNoNormal : encodeNormal(sums.normal));
+    return Attribute(packColor(scene, color, flags), is_short ? kNoNormal : encodeNormal(sums.normal));
 }
 
 #endif

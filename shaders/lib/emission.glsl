@@ -7,9 +7,11 @@
 #include "lib/color.glsl"
 #include "shared/tree_table.h"
 
-// Whether a voxel emits light.
+// Whether a voxel emits light: none does that is inside.
 bool isEmissive(uvec2_ConstPtr words, uint voxel)
 {
+    if (voxel >= kInteriorIndex)
+        return false;
     return ((words.data[voxel >> 5].x >> (voxel & 31u)) & 1u) != 0u;
 }
 

@@ -57,21 +57,26 @@ uvec2 nodeMask(Node_ConstPtr pool, uint reference)
 uint firstVoxel(Node_ConstPtr pool, uvec2_ConstPtr leaf_groups, uint reference)
 {
     uint word = leafWord(reference);
-    uint voxels = voxelsBeforePair(leaf_groups.data[1u + word / kLeafGroup], word >> 1);
-    uvec2 mask = unpackUint2x32(uint64_t_ConstPtr(uint64_t(pool)).data[word & ~1u]); // of the pair's first leaf
+    uint voxels = voxelsBeforePair(leaf_groups.data[kFirstLeafGroup + word / kLeafGroup], word >> 1);
+    uint pair = (word >> 1) + leaf_groups.data[1].x;
+    uvec2 mask = unpackUint2x32(uint64_t_ConstPtr(uint64_t(pool)).data[2u * pair]); // of the pair's first leaf
     return voxels + ((word & 1u) != 0u ? bitCount(mask.x) + bitCount(mask.y) : 0u);
 }
 
-// A node by its reference. For a leaf word, the leaf that it stands for, as a node. leaf_groups: of an octree, or null:
-// bases of a leaf count from 0 then, as in a DAG.
+// A node by its reference. For a leaf word, the leaf that it stands for, as a node: of a filled tree, with the voxels
+// that have attributes. leaf_groups: of an octree, or null: bases of a leaf count from 0 then, as in a DAG.
 Node loadNodeOf(Node_ConstPtr pool, uvec2_ConstPtr leaf_groups, uint reference)
 {
     if (!isLeafWord(reference))
-        return pool.data[reference];
-    uvec2 mask = nodeMask(pool, reference);
+        return pool.data[reference & ~kFullNodes];
+    uint surface = reference;
     uint first = 0u;
     if (uint64_t(leaf_groups) != 0ul)
+    {
         first = firstVoxel(pool, leaf_groups, reference);
+        surface += 2u * leaf_groups.data[1].x;
+    }
+    uvec2 mask = nodeMask(pool, surface);
     return Node(mask.x, first, mask.y, first + bitCount(mask.x));
 }
 

@@ -133,12 +133,18 @@ void beginBelowRoot(vec3 origin, vec3 inverse, uint mirror, uvec3 limits, inout 
 }
 #endif
 
-// The attribute index of the voxel in a cell of a leaf; of a leaf word of a DAG, the voxel's number in the leaf.
+// The attribute index of the voxel in a cell of a leaf, or kInteriorIndex; of a leaf word of a DAG, the voxel's number
+// in the leaf.
 uint voxelIndex(uint leaf, uint cell)
 {
+    if (kEntriesPerWord == 0u && (leaf & kFullNodes) != 0u)
+        return kInteriorIndex;
     bool is_word = isLeafWord(leaf);
     uint pair = is_word ? leafWord(leaf) >> 1 : leaf;
-    uvec4 words = loadPair(pair);
+    uint surface = pair;
+    if (kEntriesPerWord == 0u && is_word)
+        surface += loadLeafGroup(1u).x;
+    uvec4 words = loadPair(surface);
     bool is_second = is_word && (leaf & 1u) != 0u;
     bool is_upper = cell >= 32u;
     uint below = (1u << (cell & 31u)) - 1u;
@@ -149,8 +155,12 @@ uint voxelIndex(uint leaf, uint cell)
         return index + (is_upper ? words.w : words.y);
     index += is_upper ? bitCount(low) : 0u;
     if (kEntriesPerWord == 0u)
-        index += voxelsBeforePair(loadLeafGroup(1u + pair / (kLeafGroup / 2u)), pair) +
+    {
+        index += voxelsBeforePair(loadLeafGroup(kFirstLeafGroup + pair / (kLeafGroup / 2u)), pair) +
                  (is_second ? bitCount(words.x) + bitCount(words.y) : 0u);
+        bool on_surface = (((is_upper ? high : low) >> (cell & 31u)) & 1u) != 0u;
+        index = on_surface ? index : kInteriorIndex;
+    }
     return index;
 }
 

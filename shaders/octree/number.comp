@@ -12,13 +12,13 @@ layout(local_size_x = kRootGroup) in;
 #include "octree/nodes.glsl"
 #include "octree/place.glsl"
 
-// Numbers the nodes of a level, from first_node on. Returns how many they are.
-uint numberLevel(uint level, uint first_node)
+// Numbers the nodes of a level, from first_node on. node_count: with full ones, which have no items.
+void numberLevel(uint level, uint first_node, uint node_count)
 {
     LevelRange range = params.ranges.data[params.level_count - 1u - level];
-    bool is_node = gl_LocalInvocationIndex < range.count;
+    bool is_node = gl_LocalInvocationIndex < node_count;
     uint children;
-    if (is_node)
+    if (gl_LocalInvocationIndex < range.count)
         placeNode(params.items.data[range.first + gl_LocalInvocationIndex], level == 0u, children);
     memoryBarrierBuffer();
     barrier();
@@ -27,17 +27,16 @@ uint numberLevel(uint level, uint first_node)
     if (is_node)
         masks = uvec2(params.nodes.data[node].mask_lo, params.nodes.data[node].mask_hi);
     uint total;
-    uint base = first_node + range.count + workgroupExclusiveAdd(bitCount(masks.x) + bitCount(masks.y), total);
+    uint base = first_node + node_count + workgroupExclusiveAdd(bitCount(masks.x) + bitCount(masks.y), total);
     if (is_node)
         setBase(params.nodes, node, masks.x, base);
     memoryBarrierBuffer();
     barrier();
-    return range.count;
 }
 
 void main()
 {
-    uint count = numberLevel(0u, 0u);
+    numberLevel(0u, 0u, 1u);
     if (params.level_count > 1u)
-        numberLevel(1u, count);
+        numberLevel(1u, 1u, params.root_children);
 }

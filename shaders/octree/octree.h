@@ -48,6 +48,7 @@ struct NumberParams // push constants of octree/number: one workgroup, a thread 
     GPU_CONST_PTR(LevelRange) ranges; // [level_count]
     GPU_PTR(Node) nodes;
     uint level_count;
+    uint root_children; // nodes of the second level
 };
 #define OCTREE_NUMBER_CONSTANTS(CONSTANT)                                                                              \
     CONSTANT(0, bool, wide_keys, kWideKeys, false) /* the octree has more than kNarrowLevelsMax levels */
@@ -58,10 +59,10 @@ struct PlaceParams // push constants of octree/place
     GPU_PTR(BrickEntry) bricks;
     GPU_CONST_PTR(WorkItem) items;
     GPU_PTR(Node) nodes;
-    GPU_PTR(uint) partials; // [ceil(node_count / kScanBlock)] cleared: children of kScanBlock nodes each
+    GPU_PTR(uint) partials; // [ceil(nodes of the level / kScanBlock)] cleared: children of kScanBlock nodes each
     uint first_item;
     uint first_node; // of the level
-    uint node_count; // of the level
+    uint item_count; // of the level: full nodes have no items
 };
 #define OCTREE_PLACE_CONSTANTS(CONSTANT)                                                                               \
     CONSTANT(0, bool, wide_keys, kWideKeys, false) /* the octree has more than kNarrowLevelsMax levels */
@@ -101,17 +102,30 @@ struct AverageParams // push constants of octree/average
 #define OCTREE_AVERAGE_CONSTANTS(CONSTANT) CONSTANT(0, uint, lanes, kLanes, 1u)
 GPU_KERNEL(octree, average, Average, AverageParams, OCTREE_AVERAGE_CONSTANTS)
 
+struct InheritParams // push constants of octree/inherit: a thread a node of a level above leaves
+{
+    GPU_CONST_PTR(Node) nodes;
+    GPU_PTR(Attribute) attributes; // [nodes of the octree]
+    uint first_node;
+    uint node_count;
+};
+GPU_KERNEL(octree, inherit, Inherit, InheritParams, GPU_NO_CONSTANTS)
+
 struct LeafWordsParams // push constants of octree/leaf_words: a thread a node
 {
     GPU_CONST_PTR(Node) from;
-    GPU_PTR(Node) to;           // [ceil((2 * inner_count + leaf_count) / 2)]
-    GPU_PTR(uvec2) leaf_groups; // [1 + ceil((2 * inner_count + leaf_count) / kLeafGroup)]
+    GPU_CONST_PTR(uvec2) occupied; // [leaf_count] with kFilled
+    GPU_PTR(Node) to;              // [ceil((2 * inner_count + leaf_count) / 2)] and with kFilled, what follows
+    GPU_PTR(uvec2) surface;        // the same as words
+    GPU_PTR(uvec2) leaf_groups;    // [kFirstLeafGroup + ceil((2 * inner_count + leaf_count) / kLeafGroup)]
     uint inner_count;
     uint leaf_count;
     uint first_parent;     // of leaves
     uint attribute_offset; // from the number of a node behind the pool to the index of its attributes, modulo 2^32
+    uint first_full;       // with kFilled, the node of `to` from which the full nodes stand, then the surface masks
 };
-GPU_KERNEL(octree, leaf_words, LeafWords, LeafWordsParams, GPU_NO_CONSTANTS)
+#define OCTREE_LEAF_WORDS_CONSTANTS(CONSTANT) CONSTANT(0, bool, filled, kFilled, false)
+GPU_KERNEL(octree, leaf_words, LeafWords, LeafWordsParams, OCTREE_LEAF_WORDS_CONSTANTS)
 
 struct AverageTopParams // push constants of octree/average_top: one workgroup
 {

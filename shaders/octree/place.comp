@@ -13,7 +13,7 @@ layout(local_size_x = kNodesGroup) in;
 void main()
 {
     uint index = threadIndex();
-    if (index >= params.node_count)
+    if (index >= params.item_count)
         return;
     uint children;
     uint node = placeNode(params.items.data[params.first_item + index], false, children);

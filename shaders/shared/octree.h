@@ -27,11 +27,21 @@
 //
 //     element 0      x: n
 //                    y: from the number of a node behind the pool to the index of its attributes, modulo 2^32
-//     element 1 + g  x: voxels before word 8 g
+//     element 1      x: from a pair of leaf words to that of their surface masks, in nodes
+//     element 2 + g  x: voxels before word 8 g
 //                    y: voxels from there to word 8 g + 2: 8 bits | 8 g + 4: 9 | 8 g + 6: 9 | unused 6, the lowest
 //                    first
 //
 // Words of inner nodes hold no voxels.
+//
+// In a *filled* tree, cells are occupied that are inside and not on the surface. They have no attributes: the voxels of
+// a leaf word are those of its surface mask, a word of its own, which only hits need. In other trees that is the leaf
+// word itself. Nodes above leaves that are occupied throughout are *full*: their mask has all bits, and their children
+// are the 64 *full nodes* of the tree, which are each other's children in turn, at any level:
+//
+//     inner nodes | leaf words, to a whole node | 64 full nodes | surface masks, to a whole node
+//
+// Bases that name them have the flag kFullNodes, which vanishes where references become numbers of half nodes.
 #ifndef ZVO_SHADERS_SHARED_OCTREE_H
 #define ZVO_SHADERS_SHARED_OCTREE_H
 
@@ -62,15 +72,20 @@ GPU_BUFFER(Attribute, 8);
 const uint kNoNormal = 0x80008000u;
 
 const uint kAttributeEmissive = 1u; // flag: the voxel has an entry in the emission table
+const uint kAttributeNone = 2u;     // flag: of a node that has no voxel of the surface
 
 /// Voxels whose bits share a word of the emission table (lib/emission.glsl).
 const uint kVoxelsPerEmissionWord = 32u;
 
 const uint kNodeLevelsMax = 9u; // two octree levels each: depth 18
 
-const uint kLeafWords = 0x40000000u; // flag in Node::base_lo and base_hi, and in references
-const uint kLeafGroup = 8u;          // words of a leaf group
-const uint kGroupShift2 = 8u;        // in the y of a leaf group: voxels before its fifth word, and its seventh
+const uint kLeafWords = 0x40000000u;     // flag in Node::base_lo and base_hi, and in references
+const uint kLeafGroup = 8u;              // words of a leaf group
+const uint kFirstLeafGroup = 2u;         // among leaf groups
+const uint kFullNodes = 0x80000000u;     // flag of references to full nodes, in an octree
+const uint kFullNodeCount = 64u;         // in a filled tree
+const uint kInteriorIndex = 0x80000000u; // in place of an attribute's index: the voxel is inside, and has none
+const uint kGroupShift2 = 8u;            // in the y of a leaf group: voxels before its fifth word, and its seventh
 const uint kGroupShift3 = 17u;
 
 GPU_NAMESPACE_END

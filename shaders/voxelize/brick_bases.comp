@@ -14,8 +14,11 @@ layout(local_size_x = kAssignGroup) in;
 uint voxelsOf(uint i)
 {
     uint voxels = 0u;
+    uint brick = kNoRange;
     if (i < params.brick_count)
-        voxels = params.ranges.data[params.order.data[i]].voxels;
+        brick = params.order.data[i];
+    if (brick != kNoRange)
+        voxels = params.ranges.data[brick].voxels;
     return voxels;
 }
 
@@ -42,8 +45,11 @@ void main()
     base += workgroupExclusiveAdd(low.x + low.y + low.z + low.w + high.x + high.y + high.z + high.w, total);
     [[unroll]] for (uint i = 0u; i < kAssignItems; ++i)
     {
+        uint brick = kNoRange;
         if (first + i < params.brick_count)
-            params.ranges.data[params.order.data[first + i]].first_voxel = base;
+            brick = params.order.data[first + i];
+        if (brick != kNoRange)
+            params.ranges.data[brick].first_voxel = base;
         base += i < 4u ? low[i & 3u] : high[i & 3u];
     }
 }

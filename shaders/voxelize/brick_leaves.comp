@@ -13,6 +13,13 @@ layout(local_size_x = kBricksGroup) in;
 #include "lib/node.glsl"
 #include "voxelize/brick_lanes.glsl"
 
+#ifdef BOUND
+TEXELS_2(1, crossings);
+#define INSIDE(I) texelFetch(texels2_crossings, int(I)).xy
+#else
+#define INSIDE(I) uvec2_ConstPtr(uint64_t(params.crossings)).data[I]
+#endif
+
 uvec2 mixedOf(uint leaf_mask)
 {
     return kMixed ? MASKS(leaf_mask + kBrickLeaves) : uvec2(0u);
@@ -23,6 +30,11 @@ void main()
     uint number = threadIndex() / kBrickLanes;
     bool is_brick = number < params.brick_count;
     uint brick = params.order.data[min(number, params.brick_count - 1u)];
+    if (kFillPlanes != 0u && brick == kNoRange)
+    {
+        is_brick = false;
+        brick = 0u;
+    }
     BrickRange range = params.ranges.data[brick];
     Node parent = Node(1u, 0u, 0u, 0u); // a grid of up to 4^3 is a leaf without nodes above it
     if (params.first_leaf != 0u)
@@ -50,6 +62,9 @@ void main()
         uint middle = voxel + bitCount(mask.x);
         uint node = childIndex(parent, first_leaf + leaf);
         params.nodes.data[node] = Node(mask.x, voxel, mask.y, middle);
+        if (kFillPlanes != 0u)
+            params.occupied.data[node - params.first_leaf] =
+                mask | INSIDE(brick * (2u * kFillPlanes * kBrickLeaves) + first_leaf + leaf);
         if (kMixed)
             params.mixed.data[node - params.first_leaf] = MixedVoxels(mixed.x, mixed.y, sums, 0u);
         voxel = middle + bitCount(mask.y);

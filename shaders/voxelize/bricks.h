@@ -11,9 +11,12 @@
 
 GPU_NAMESPACE_BEGIN
 
-const uint kBrickLog2 = 4u;       // a brick has 16 cells along each axis
-const uint kBrickLeaves = 64u;    // leaves of a brick
+const uint kBrickLog2 = 4u;    // a brick has 16 cells along each axis
+const uint kBrickLeaves = 64u; // leaves of a brick
+const uint kBrickVoxels = 4096u;
 const uint kLeafMaskWords = 128u; // words of the masks of a brick's leaves
+const uint kFillLanes = 8u;       // threads of voxelize/fill that share a column of bricks: each takes 32 of its lines
+const uint kFillPlanesMax = 25u;  // planes of crossings, so that counts of them have 32 bits
 const uint kItemColumns = 16u;    // columns of an item
 
 // ItemVoxels::info until the voxels are known: the number of a tile of 4x4 columns, and what is added
@@ -91,6 +94,8 @@ struct ItemVoxels
 };
 GPU_BUFFER(ItemVoxels, 4);
 
+const uint kNoRange = ~0u; // in the place of a brick's number: a full one, which no triangle may touch
+
 /// A brick that triangles may touch.
 struct BrickRange
 {
@@ -122,12 +127,17 @@ struct BinCounters
     uint leaf_count;
     uint voxel_count;
     uint voxel_carry;
-    uint mixed_count;     // mixed voxels
+    uint mixed_count;        // mixed voxels
+    uint crossings_exceeded; // 1: more crossings in a voxel, or above one, than planes count
+    uint open_lines;         // vertical lines through voxels' centres that are inside below all triangles
+    uint filled_lo;          // voxels that are inside and not on the surface, in bricks
+    uint filled_hi;
     uint arrived;         // threads of the running dispatch (lib/arrivals.glsl); 0 in between
     DispatchArgs large;   // of voxelize/bin_large
     DispatchArgs known;   // of voxelize/cover for items whose voxels are known
     DispatchArgs cover;   // for the others
     DispatchArgs collect; // of voxelize/collect_bricks
+    DispatchArgs fill;    // of voxelize/fill
     DispatchArgs leaves;  // of kBrickLanes threads for each listed brick, and one workgroup at least
 };
 GPU_BUFFER(BinCounters, 4);
@@ -207,7 +217,10 @@ struct CoverParams // push constants of voxelize/cover: a thread an item
     GPU_CONST_PTR(BrickItem) items;       // [item_capacity]
     GPU_PTR(ItemVoxels) voxels;           // [item_capacity], with conservative coverage twice as many
     GPU_PTR(uint) masks;                  // kLeafMaskWords a range, of leaves; with kMixed as many, of mixed voxels
-    GPU_CONST_PTR(BinCounters) counters;  // [1]
+    GPU_PTR(uint)
+    crossings;                     // kLeafMaskWords a plane, 2 kFillPlanes planes a range: bits of the counts of
+                                   // triangles that face up, from the lowest on, then of those that face down
+    GPU_PTR(BinCounters) counters; // [1]
     uint window;
 };
 #define VOXELIZE_COVER_CONSTANTS(CONSTANT)                                                                             \
@@ -216,14 +229,55 @@ struct CoverParams // push constants of voxelize/cover: a thread an item
     CONSTANT(2, bool, known, kKnown, false) /* items whose voxels are known; else the others */                        \
     CONSTANT(3, MaterialClass, material_class, kMaterialClass, kClassPlain)                                            \
     CONSTANT(4, Coverage, coverage, kCoverage, kCoverageConservative)                                                  \
-    CONSTANT(5, bool, emits, kEmits, false)
+    CONSTANT(5, bool, emits, kEmits, false)                                                                            \
+    CONSTANT(6, uint, fill_planes, kFillPlanes, 0u) /* 0: nothing is filled */
 GPU_KERNEL(voxelize, cover, Cover, CoverParams, VOXELIZE_COVER_CONSTANTS)
+
+struct FillColumnsParams // push constants of voxelize/fill_columns: a thread a brick
+{
+    GPU_PTR(BrickEntry) bricks;       // [brick_mask + 1] get the columns of bricks (voxelize/fill_columns.glsl)
+    GPU_CONST_PTR(BrickRange) ranges; // [range_capacity]
+    GPU_PTR(BinCounters) counters;    // [1]
+    uint window;
+    uint brick_mask;
+};
+#define VOXELIZE_FILL_COLUMNS_CONSTANTS(CONSTANT) CONSTANT(0, bool, wide_keys, kWideKeys, false)
+GPU_KERNEL(voxelize, fill_columns, FillColumns, FillColumnsParams, VOXELIZE_FILL_COLUMNS_CONSTANTS)
+
+struct FillParams // push constants of voxelize/fill: kFillLanes threads a brick
+{
+    GPU_PTR(BrickEntry) bricks;       // [brick_mask + 1] get the open bricks
+    GPU_CONST_PTR(BrickRange) ranges; // [range_capacity]
+    GPU_PTR(uint) crossings;       // as in CoverParams; the first plane of a range becomes the masks of what is inside
+    GPU_PTR(BinCounters) counters; // [1]
+    uint window;
+    uint brick_mask;
+};
+#define VOXELIZE_FILL_CONSTANTS(CONSTANT)                                                                              \
+    CONSTANT(0, bool, wide_keys, kWideKeys, false)                                                                     \
+    CONSTANT(1, uint, fill_planes, kFillPlanes, 1u)                                                                    \
+    CONSTANT(2, Fill, fill, kFill, kFillSolid)
+GPU_KERNEL(voxelize, fill, FillVoxels, FillParams, VOXELIZE_FILL_CONSTANTS)
+
+struct FillNodesParams // push constants of voxelize/fill_nodes: a thread a node above bricks
+{
+    GPU_PTR(BrickEntry) bricks;       // [brick_mask + 1] masks get the children that are full: they have no entries
+    GPU_CONST_PTR(WorkItem) items;    // [nodes]
+    GPU_CONST_PTR(LevelRange) ranges; // [kNodeLevelsMax]
+    GPU_PTR(BrickCounters) counters;  // [1]
+    uint window;
+    uint brick_mask;
+    uint height; // of the nodes' level; of bricks: 0
+};
+#define VOXELIZE_FILL_NODES_CONSTANTS(CONSTANT) CONSTANT(0, bool, wide_keys, kWideKeys, false)
+GPU_KERNEL(voxelize, fill_nodes, FillNodes, FillNodesParams, VOXELIZE_FILL_NODES_CONSTANTS)
 
 struct CollectBricksParams // push constants of voxelize/collect_bricks: a thread a brick
 {
     GPU_PTR(BrickEntry) bricks;    // [brick_capacity] get the masks of their leaves
     GPU_PTR(BrickRange) ranges;    // [range_capacity] get their voxels and first sums
     GPU_CONST_PTR(uint) masks;     // as in CoverParams
+    GPU_CONST_PTR(uint) crossings; // as voxelize/fill leaves them
     GPU_PTR(WorkItem) work;        // [brick_capacity] bricks with voxels
     GPU_PTR(uint) work_bricks;     // [range_capacity] their numbers in ranges
     GPU_PTR(BinCounters) counters; // [1]
@@ -234,7 +288,8 @@ struct CollectBricksParams // push constants of voxelize/collect_bricks: a threa
 };
 #define VOXELIZE_COLLECT_BRICKS_CONSTANTS(CONSTANT)                                                                    \
     CONSTANT(0, bool, mixed, kMixed, false)                                                                            \
-    CONSTANT(1, uint, brick_lanes, kBrickLanes, 2u) /* threads that share a brick */
+    CONSTANT(1, uint, brick_lanes, kBrickLanes, 2u) /* threads that share a brick */                                   \
+    CONSTANT(2, uint, fill_planes, kFillPlanes, 0u)
 GPU_KERNEL(voxelize, collect_bricks, CollectBricks, CollectBricksParams, VOXELIZE_COLLECT_BRICKS_CONSTANTS)
 
 struct PlaceBricksParams // push constants of voxelize/place_bricks: a thread a brick with voxels
@@ -243,8 +298,8 @@ struct PlaceBricksParams // push constants of voxelize/place_bricks: a thread a 
     GPU_CONST_PTR(BrickRange) ranges; // [range_capacity]
     GPU_CONST_PTR(WorkItem) work;     // [brick_count] bricks with voxels
     GPU_CONST_PTR(uint) work_bricks;  // [brick_count] their numbers in ranges
-    GPU_PTR(uint) order;              // [brick_count] numbers in ranges, in the order of nodes
-    GPU_PTR(uint) partials;           // [ceil(brick_count / kScanBlock)] cleared: voxels of kScanBlock bricks each
+    GPU_PTR(uint) order;              // [nodes of bricks] numbers in ranges, in the order of nodes
+    GPU_PTR(uint) partials;           // [ceil(nodes / kScanBlock)] cleared: voxels of kScanBlock bricks each
     uint first_node;
     uint brick_count;
 };
@@ -254,7 +309,7 @@ GPU_KERNEL(voxelize, place_bricks, PlaceBricks, PlaceBricksParams, VOXELIZE_PLAC
 struct BrickBasesParams // push constants of voxelize/brick_bases
 {
     GPU_PTR(BrickRange) ranges;   // [range_capacity] get their first voxels
-    GPU_CONST_PTR(uint) order;    // [brick_count]
+    GPU_CONST_PTR(uint) order;    // [brick_count] or kNoRange
     GPU_CONST_PTR(uint) partials; // [ceil(brick_count / kScanBlock)]
     uint is_scanned;              // 1: partials are exclusive prefix sums already
     uint brick_count;
@@ -265,17 +320,20 @@ struct BrickLeavesParams // push constants of voxelize/brick_leaves: kBrickLanes
 {
     GPU_CONST_PTR(BrickEntry) bricks; // [brick_capacity]
     GPU_CONST_PTR(BrickRange) ranges; // [range_capacity]
-    GPU_CONST_PTR(uint) order;        // [brick_count]
+    GPU_CONST_PTR(uint) order;        // [brick_count] or kNoRange
     GPU_CONST_PTR(uint) masks;        // as in CoverParams
-    GPU_PTR(Node) nodes;              // [nodes of the octree]
+    GPU_CONST_PTR(uint) crossings;    // as voxelize/fill leaves them
+    GPU_PTR(Node) nodes;              // [nodes of the octree] leaves have the masks of the surface
     GPU_PTR(MixedVoxels) mixed;       // [leaves] with kMixed
+    GPU_PTR(uvec2) occupied;          // [leaves] with kFillPlanes: the masks of surface and inside
     uint first_leaf;                  // of nodes
     uint brick_count;
 };
 #define VOXELIZE_BRICK_LEAVES_CONSTANTS(CONSTANT)                                                                      \
     CONSTANT(0, bool, wide_keys, kWideKeys, false)                                                                     \
     CONSTANT(1, bool, mixed, kMixed, false)                                                                            \
-    CONSTANT(2, uint, brick_lanes, kBrickLanes, 2u)
+    CONSTANT(2, uint, brick_lanes, kBrickLanes, 2u)                                                                    \
+    CONSTANT(3, uint, fill_planes, kFillPlanes, 0u)
 GPU_KERNEL(voxelize, brick_leaves, BrickLeaves, BrickLeavesParams, VOXELIZE_BRICK_LEAVES_CONSTANTS)
 
 struct AttributesParams // push constants of voxelize/attributes: a thread an item

@@ -1,7 +1,7 @@
 #version 460
 // SPDX-License-Identifier: MIT
 // Lists the bricks that have voxels as work items of octree construction, in the place of leaves, and counts their
-// leaves and voxels.
+// leaves and voxels. Those that are full and have no surface are left to voxelize/fill_nodes.
 #extension GL_GOOGLE_include_directive : require
 #include "voxelize/bricks.h"
 
@@ -17,8 +17,11 @@ layout(local_size_x = kBricksGroup) in;
 
 #ifdef BOUND
 TEXELS_4(0, masks);
+TEXELS_4(1, crossings);
 #define MASK_WORDS(I) texelFetch(texels4_masks, int(I))
+#define INSIDE_WORDS(I) texelFetch(texels4_crossings, int(I))
 #else
+#define INSIDE_WORDS(I) uvec4_ConstPtr(uint64_t(params.crossings)).data[I]
 #define MASK_WORDS(I) uvec4_ConstPtr(uint64_t(params.masks)).data[I]
 #endif
 
@@ -26,6 +29,7 @@ shared uint s_leaves_lo[kBricksGroup];
 shared uint s_leaves_hi[kBricksGroup];
 shared uint s_voxels[kBricksGroup];
 shared uint s_mixed[kBricksGroup];
+shared uint s_filled[kFillPlanes != 0u ? kBricksGroup : 1u]; // voxels that are inside alone
 
 uint bitCounts(uvec4 words)
 {
@@ -38,24 +42,41 @@ void countBrick(uint brick, uint slot)
     uvec2 leaves = uvec2(0u);
     uint voxels = 0u;
     uint mixed = 0u;
+    uint filled = 0u;
     uint first = brick * ((kMixed ? 2u : 1u) * kLeafMaskWords / 4u);
+    uint first_inside = brick * (2u * kFillPlanes * kLeafMaskWords / 4u);
     for (uint pair = gl_LocalInvocationIndex % kBrickLanes; pair < kBrickLeaves / 2u; pair += kBrickLanes)
     {
         uvec4 words = MASK_WORDS(first + pair);
-        uint found = ((words.x | words.y) != 0u ? 1u : 0u) | ((words.z | words.w) != 0u ? 2u : 0u);
+        uvec4 occupied = words;
+        if (kFillPlanes != 0u)
+        {
+            occupied |= INSIDE_WORDS(first_inside + pair);
+            filled += bitCounts(occupied & ~words);
+        }
+        uint found = ((occupied.x | occupied.y) != 0u ? 1u : 0u) | ((occupied.z | occupied.w) != 0u ? 2u : 0u);
         found <<= (2u * pair) & 31u;
         leaves |= pair < kBrickLeaves / 4u ? uvec2(found, 0u) : uvec2(0u, found);
         voxels += bitCounts(words);
         if (kMixed)
             mixed += bitCounts(MASK_WORDS(first + kLeafMaskWords / 4u + pair));
     }
-    if (voxels != 0u)
+    if (kFillPlanes != 0u && filled != 0u)
+        atomicAdd(s_filled[slot], filled);
+    if ((leaves.x | leaves.y) != 0u)
     {
         atomicOr(s_leaves_lo[slot], leaves.x);
         atomicOr(s_leaves_hi[slot], leaves.y);
         atomicAdd(s_voxels[slot], voxels);
         atomicAdd(s_mixed[slot], mixed);
     }
+}
+
+void addFilled(uint filled)
+{
+    uint before = atomicAdd(params.counters.data[0].filled_lo, filled);
+    if (before + filled < before)
+        atomicAdd(params.counters.data[0].filled_hi, 1u);
 }
 
 void main()
@@ -69,6 +90,8 @@ void main()
     s_leaves_hi[lane] = 0u;
     s_voxels[lane] = 0u;
     s_mixed[lane] = 0u;
+    if (kFillPlanes != 0u)
+        s_filled[lane] = 0u;
     barrier();
     for (uint slot = lane / kBrickLanes; slot < kBricksGroup; slot += kBricksGroup / kBrickLanes)
         if (workgroupIndex() * kBricksGroup + slot < brick_count)
@@ -78,17 +101,24 @@ void main()
     uint entry = 0u;
     uvec2 leaves = uvec2(s_leaves_lo[lane], s_leaves_hi[lane]);
     uint voxels = s_voxels[lane];
+    uint filled = kFillPlanes != 0u ? s_filled[lane] : 0u;
+    if (filled == kBrickVoxels)
+    {
+        leaves = uvec2(0u);
+        filled = 0u;
+    }
     if (brick < brick_count)
     {
         entry = params.ranges.data[brick].entry;
         params.bricks.data[entry].mask_lo = leaves.x;
         params.bricks.data[entry].mask_hi = leaves.y;
     }
-    bool has_voxels = voxels != 0u;
+    bool has_voxels = (leaves.x | leaves.y) != 0u;
     uvec4 total = subgroupAdd(
         uvec4(has_voxels ? 1u : 0u, bitCount(leaves.x) + bitCount(leaves.y), voxels, s_mixed[lane]));
     uint sums_before = subgroupExclusiveAdd(s_mixed[lane]);
     uint before = subgroupExclusiveAdd(has_voxels ? 1u : 0u);
+    uint total_filled = kFillPlanes != 0u ? subgroupAdd(filled) : 0u;
     uvec2 first = uvec2(0u); // work item, sums
     if (subgroupElect() && total.x != 0u)
     {
@@ -98,6 +128,8 @@ void main()
         uint voxels_before = atomicAdd(params.counters.data[0].voxel_count, total.z);
         if (voxels_before + total.z < voxels_before)
             atomicAdd(params.counters.data[0].voxel_carry, 1u);
+        if (kFillPlanes != 0u)
+            addFilled(total_filled);
     }
     first = subgroupBroadcastFirst(first);
     uint item = first.x + before;

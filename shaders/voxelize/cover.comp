@@ -16,14 +16,18 @@ const uint kMode = kModeCoverage;
 #include "lib/bound.glsl"
 #include "lib/brick_loads.glsl"
 #include "lib/dispatch.glsl"
+#include "voxelize/crossing.glsl"
 #include "voxelize/item_surface.glsl"
 
 #ifdef BOUND
 STORAGE(2, uint, masks);
+STORAGE(3, uint, crossings);
+#define CROSSING_WORD(I) storage_crossings.data[I]
 STORAGE(14, ItemVoxels, voxels);
 #define MASK_WORD(I) storage_masks.data[I]
 #define ITEM_VOXELS(I) storage_voxels.data[I]
 #else
+#define CROSSING_WORD(I) params.crossings.data[I]
 #define MASK_WORD(I) params.masks.data[I]
 #define ITEM_VOXELS(I) params.voxels.data[I]
 #endif
@@ -92,6 +96,26 @@ void setItem(BrickItem item, BrickEntry entry, Voxels voxels, bool tests)
     }
 }
 
+// Counts the crossings in the voxels of an item: digits are added from the lowest plane up.
+void addCrossings(BrickItem item, BrickEntry entry, Voxels voxels)
+{
+    ivec3 brick = brickCorner(entry);
+    TriangleSetup setup = loadSetup(item.triangle);
+    uint first_word = entry.mask_lo * (2u * kFillPlanes * kLeafMaskWords);
+    while (hasVoxels(voxels))
+    {
+        uvec3 voxel = takeVoxel(voxels);
+        uint number = numberOf(voxel);
+        int sign = crossing(setup, brick + ivec3(voxel));
+        uint word = first_word + (number >> 5) + (sign < 0 ? kFillPlanes * kLeafMaskWords : 0u);
+        uint carry = sign != 0 ? 1u << (number & 31u) : 0u;
+        for (uint plane = 0u; plane < kFillPlanes && carry != 0u; ++plane)
+            carry &= atomicXor(CROSSING_WORD(word + plane * kLeafMaskWords), carry);
+        if (carry != 0u)
+            atomicMax(params.counters.data[0].crossings_exceeded, 1u);
+    }
+}
+
 void main()
 {
     uint known_items = params.counters.data[0].known_items;
@@ -110,6 +134,8 @@ void main()
     bool tests = false;
     if (kMaterialClass == kClassAlpha)
         tests = loadMaterial(loadSetup(item.triangle).material).alpha_mode != kAlphaOpaque;
+    if (kFillPlanes != 0u && !tests) // what alpha cuts encloses nothing
+        addCrossings(item, entry, voxels);
     Voxels none = voxels;
     none.info &= ~kColumnsMask;
     setItem(item, entry, tests ? none : voxels, false);

@@ -9,6 +9,8 @@
 
 GPU_ENUM(Coverage) // kCoverageConservative, kCoverageThin
 #define GPU_TYPE_Coverage uint
+GPU_ENUM(Fill) // kFillNone and so on
+#define GPU_TYPE_Fill uint
 GPU_ENUM(MaterialClass) // kClassPlain and so on
 #define GPU_TYPE_MaterialClass uint
 GPU_ENUM(RasterMode) // kModeCoverage and so on
@@ -31,6 +33,11 @@ const int kVoxelLatticeLog2 = 8;
 // Specialization constant coverage: which voxels a triangle covers.
 const uint kCoverageConservative = 0u;
 const uint kCoverageThin = 1u;
+
+// Specialization constant fill: which voxels are inside, by their winding number (docs/voxelization.md).
+const uint kFillNone = 0u;
+const uint kFillSolid = 1u;  // it is not 0
+const uint kFillParity = 2u; // it is odd
 
 // Specialization constant mode: what is done with a fragment.
 const uint kModeCoverage = 0u;   // sets the voxel's bit

@@ -26,6 +26,7 @@ BuildOptions optionsOf(const TreeBuildInfo& info)
     options.coverage = checked(info).coverage;
     options.attributes = info.format != AttributeFormat::None;
     options.keep_sums = info.keep_sums;
+    options.fill = info.fill;
     return options;
 }
 

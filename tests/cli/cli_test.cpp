@@ -93,6 +93,22 @@ TEST_F(CliRun, FlagsComeInAnyOrder)
     EXPECT_NE(file("1.morton"), "");
 }
 
+TEST_F(CliRun, FillsWhatIsClosedInAllOfItsFiles)
+{
+    constexpr std::size_t kCells = 16 * 16 * 16; // the cube is the whole grid
+    run("voxelize cube.glb --resolution 16 --fill solid -o full.morton");
+    EXPECT_EQ(file("full.morton").size(), kCells * sizeof(std::uint64_t));
+    run("build cube.glb --resolution 16 --fill parity -o full.zvo --json full.json");
+    EXPECT_EQ(json::parse(file("full.json"))["voxels"], kCells);
+    run("convert full.zvo -o full.ply");
+    EXPECT_NE(file("full.ply").find(fmt::format("element vertex {}\n", kCells)), std::string::npos);
+    run("render full.zvo -o a.png --size 64x48");
+    run("render cube.glb --resolution 16 -o b.png --size 64x48");
+    EXPECT_EQ(file("a.png"), file("b.png"));
+    expectError("build cube.glb --resolution 16 --fill solid --structure svdag -o a.zvo", 2, {"--structure svo"});
+    expectError("voxelize cube.glb --resolution 4 --fill solid -o a.morton", 2, {"resolution of 8"});
+}
+
 TEST_F(CliRun, PlyFileHoldsCentersNormalsAndColors)
 {
     run("voxelize cube.glb -o cube.ply --resolution 32");

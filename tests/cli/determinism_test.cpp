@@ -51,6 +51,7 @@ struct DeterminismCase
     const char* scene;
     const char* resolution;
     const char* grid = nullptr; // origin and voxel size; null: the grid is around the scene
+    const char* fill = "none";
 };
 
 void PrintTo(const DeterminismCase& octree, std::ostream* out)
@@ -69,7 +70,8 @@ class OctreeBytes : public testing::TestWithParam<std::tuple<DeterminismCase, Co
 
 INSTANTIATE_TEST_SUITE_P(
     Scenes, OctreeBytes,
-    testing::Combine(testing::Values(DeterminismCase{"atrium.glb", "256"}, DeterminismCase{"bunny.glb", "256"},
+    testing::Combine(testing::Values(DeterminismCase{"atrium.glb", "256"},
+                                     DeterminismCase{"bunny.glb", "256", nullptr, "solid"},
                                      DeterminismCase{"sponza.glb", "128"},
                                      DeterminismCase{"cornell_box.glb", "131072", "-99.1,-3.3,-0.2,0.002"}),
                      testing::Values(Coverage::Thin, Coverage::Conservative)),
@@ -85,7 +87,7 @@ TEST_P(OctreeBytes, DoNotDependOnThreadsAndSubgroups)
         GTEST_SKIP() << scene.scene << " is not there";
     }
     CommandLine arguments = std::string("voxelize -o x.morton -f --json - --resolution ") + scene.resolution +
-                            " --coverage " + optionOf(coverage) +
+                            " --coverage " + optionOf(coverage) + " --fill " + scene.fill +
                             (scene.grid != nullptr ? std::string(" --grid=") + scene.grid : "");
     arguments.push_back(path->string());
     const TempDir dir;

@@ -239,6 +239,12 @@ void buildDark(const Grid& grid, Coverage coverage)
             EXPECT_EQ(test::difference(expected, cells), "");
         }
     }
+    if (grid.nodeLevels() > 2)
+    {
+        const BuildResult filled = buildOctree(device(), dark, grid, {.coverage = coverage, .fill = Fill::Solid});
+        noteKernels(filled.passes);
+        EXPECT_GT(filled.octree.interior_count, 0U);
+    }
 }
 
 TEST(EveryKernel, RunsOnASmallScene)

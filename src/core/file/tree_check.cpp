@@ -51,7 +51,8 @@ void requireMasks(const TreeData& tree)
 {
     for (std::size_t i = 0; i < tree.nodes.size(); ++i)
     {
-        requireSound(cellMask(tree.nodes[i]) != 0, "node {} has no children", i);
+        const bool may_be_empty = tree.isFilled() && i != 0; // full, or a leaf without a surface
+        requireSound(may_be_empty || cellMask(tree.nodes[i]) != 0, "node {} has no children", i);
     }
     const bool is_odd = tree.grid.depth % 2 != 0;
     requireSound(!is_odd || tree.nodes.empty() || cellMask(tree.nodes.front()) <= kLowerOctant,
@@ -211,6 +212,21 @@ void requireDagCounts(const TreeData& tree)
                  tree.voxel_count, tree.octree_node_count);
 }
 
+// Of a filled octree: every leaf has cells, those of the surface among them. The last sums fit, as a grid has at most
+// 2^51 cells.
+void requireOccupied(const TreeData& tree)
+{
+    const std::uint32_t leaf_count = tree.levels.size() > 1 ? tree.levels.back().node_count : 0;
+    requireSound(tree.occupied.size() == leaf_count, "there are {} occupied cells' masks of {} leaves",
+                 tree.occupied.size(), leaf_count);
+    for (std::uint32_t i = 0; i < leaf_count; ++i)
+    {
+        const std::uint64_t mask = cellMask(tree.nodes[tree.levels.back().first_node + i]);
+        requireSound(tree.occupied[i] != 0 && (mask & ~tree.occupied[i]) == 0,
+                     "leaf {} has cells of the surface that are not occupied, or none", i);
+    }
+}
+
 void requireGrid(const Grid& grid)
 {
     requireSound(grid.depth >= 1 && grid.depth <= Grid::kDepthMax, "a grid of depth {}, where 1 to {} are possible",
@@ -226,6 +242,7 @@ void requireTree(const TreeData& tree)
     requireGrid(tree.grid);
     const bool is_octree = tree.structure == TreeStructure::Svo;
     requireSound(is_octree || tree.structure == TreeStructure::Svdag, "the structure is neither an octree nor a DAG");
+    requireSound(is_octree || !tree.isFilled(), "a DAG with what only a filled octree has");
     requireSound(!is_octree || (tree.lists.empty() && tree.before.empty() && tree.voxels_before_leaf.empty() &&
                                 tree.long_entry_count == 0 && tree.octree_node_count == tree.nodes.size()),
                  "an octree with what only a DAG has");
@@ -235,6 +252,10 @@ void requireTree(const TreeData& tree)
     {
         requireOctreeNodes(tree);
         requireSound(!tree.nodes.empty() || tree.voxel_count == 0, "there are voxels without nodes");
+        if (tree.isFilled())
+        {
+            requireOccupied(tree);
+        }
     }
     else
     {

@@ -63,6 +63,7 @@ void addContent(std::vector<Content>& contents, ZvoSectionId id, const std::vect
 ZvoHeader headerOf(const TreeData& tree)
 {
     ZvoHeader header;
+    header.version_minor = tree.isFilled() ? kZvoVersionMinor : 0;
     header.structure = static_cast<std::uint32_t>(tree.structure);
     header.origin = {tree.grid.origin.x, tree.grid.origin.y, tree.grid.origin.z};
     header.voxel_size = tree.grid.voxel_size;
@@ -97,7 +98,8 @@ std::string sectionName(std::uint32_t id)
                                       "attributes of nodes",
                                       "words of the emission table",
                                       "emissions",
-                                      "leaves"};
+                                      "leaves",
+                                      "occupied cells"};
     return id != 0 && id <= std::size(kNames) ? kNames[id - 1] : fmt::format("section {}", id);
 }
 
@@ -147,6 +149,7 @@ void writeZvo(const TreeData& tree, const std::function<void(std::span<const std
     std::vector<std::uint64_t> leaves(leaf_count);
     std::ranges::transform(nodes.last(leaf_count), leaves.begin(), cellMask);
     addContent(contents, ZvoSectionId::Leaves, leaves);
+    addContent(contents, ZvoSectionId::Occupied, tree.occupied);
 
     std::uint64_t end = sizeof(ZvoHeader) + contents.size() * sizeof(ZvoSection);
     std::vector<ZvoSection> table;

@@ -26,7 +26,7 @@ inline constexpr std::array<char, 8> kZvoMagic = {'\x8a', 'Z', 'V', 'O', '\r', '
 
 inline constexpr std::uint32_t kZvoByteOrder = 0x01020304U;
 inline constexpr std::uint16_t kZvoVersionMajor = 2; // readers refuse later ones
-inline constexpr std::uint16_t kZvoVersionMinor = 0; // readers accept others
+inline constexpr std::uint16_t kZvoVersionMinor = 1; // of files with filled octrees, of others 0; readers accept any
 inline constexpr std::uint64_t kZvoAlignment = 64;   // of sections, in bytes
 inline constexpr std::uint32_t kZvoSectionsMax = 1024;
 
@@ -43,6 +43,7 @@ enum class ZvoSectionId : std::uint32_t
     EmissionWords = 8,    ///< two 32-bit words for 32 voxels
     Emission = 9,         ///< RGB9E5
     Leaves = 10,          ///< masks, 64-bit
+    Occupied = 11,        ///< masks of the leaves of a filled octree, 64-bit, since version 2.1
 };
 
 /// How the elements of a section are laid out. All formats but Plain are for attributes only.

@@ -45,6 +45,7 @@ public:
         requireSections();
         appendLeaves(m_leaves, m_file.tree);
         requireNone(checkTree(m_file.tree));
+        m_file.tree.interior_count = interiorCount(m_file.tree);
         return std::move(m_file);
     }
 
@@ -208,6 +209,8 @@ private:
             return readArray(section, tree.emission, section.count);
         case ZvoSectionId::Leaves:
             return readArray(section, m_leaves, leafCount());
+        case ZvoSectionId::Occupied:
+            return readArray(section, tree.occupied, leafCount());
         }
         skip(section);
     }

@@ -6,6 +6,7 @@
 #include "core/base/tuning.h"
 #include "core/tree/leaf_words.h"
 
+#include <algorithm>
 #include <cstddef>
 
 namespace zvo
@@ -39,7 +40,8 @@ void numberTop(vk::FrameGraph& graph, vk::BufferOf<gpu::BrickEntry>& table, Octr
                                     .items = pass.read(work.items),
                                     .ranges = pass.read(work.ranges),
                                     .nodes = pass.readWrite(octree.nodes),
-                                    .level_count = static_cast<std::uint32_t>(level_count)});
+                                    .level_count = static_cast<std::uint32_t>(level_count),
+                                    .root_children = level_count > 1 ? octree.levels[1].node_count : 0});
 }
 
 // Places the nodes of a level, whose first work item is given, and sets their child bases by a prefix sum.
@@ -51,13 +53,14 @@ void numberLevel(vk::FrameGraph& graph, vk::BufferOf<gpu::BrickEntry>& table, Oc
     const std::uint64_t skipped = first_block * sizeof(gpu::uint);
     {
         vk::Pass pass = graph.addPass(gpu::octree::Place{.wide_keys = hasWideKeys(octree.grid)});
-        pass.dispatch(node_count, {.bricks = pass.readWrite(table),
+        const std::uint32_t item_count = work.item_counts[level];
+        pass.dispatch(item_count, {.bricks = pass.readWrite(table),
                                    .items = pass.read(work.items),
                                    .nodes = pass.readWrite(octree.nodes),
                                    .partials = {pass.readWrite(work.partials).address + skipped},
                                    .first_item = first_item,
                                    .first_node = first_node,
-                                   .node_count = node_count});
+                                   .item_count = item_count});
     }
     scanBlocks(graph, work.partials, skipped, block_count, work);
     vk::Pass pass = graph.addPass(gpu::octree::Assign{});
@@ -69,32 +72,40 @@ void numberLevel(vk::FrameGraph& graph, vk::BufferOf<gpu::BrickEntry>& table, Oc
                                                             .first_child = first_node + node_count});
 }
 
-gpu::voxelize::BrickLeaves brickLeaves(const vk::Device& device, const Grid& grid, const VoxelForm& form)
+gpu::voxelize::BrickLeaves brickLeaves(const vk::Device& device, const Grid& grid, const VoxelForm& form,
+                                       std::uint32_t fill_planes)
 {
-    return {
-        .wide_keys = hasWideKeys(grid), .mixed = form.mixed, .brick_lanes = tunedValue(device, Tunable::BrickLanes)};
+    return {.wide_keys = hasWideKeys(grid),
+            .mixed = form.mixed,
+            .brick_lanes = tunedValue(device, Tunable::BrickLanes),
+            .fill_planes = fill_planes};
 }
 
 // Numbers the voxels of bricks, and writes the nodes of leaves.
-void numberLeaves(vk::FrameGraph& graph, VoxelizeBuffers& voxelize, OctreeBuildBuffers& work,
-                  vk::BufferOf<gpu::MixedVoxels>& mixed, DeviceTree& octree)
+void numberLeaves(vk::FrameGraph& graph, VoxelizeBuffers& voxelize, OctreeBuildBuffers& work, LeafBuffers& leaves,
+                  DeviceTree& octree)
 {
     const bool wide = hasWideKeys(octree.grid);
     // A grid of up to 4^3 is one leaf, of one brick, without a node for that.
     const std::size_t level_count = octree.levels.size();
     const auto [first_node, brick_count] = level_count > 1 ? octree.levels[level_count - 2] : DeviceTree::Level{0, 1};
     const std::uint64_t block_count = divideUp(brick_count, gpu::kScanBlock);
+    const std::uint32_t item_count = level_count > 1 ? work.item_counts.back() : 1;
     graph.fill(work.brick_partials, 0);
+    if (voxelize.fill_planes != 0)
+    {
+        graph.fill(work.order, gpu::kNoRange);
+    }
     {
         vk::Pass pass = graph.addPass(gpu::voxelize::PlaceBricks{.wide_keys = wide});
-        pass.dispatch(brick_count, {.bricks = pass.read(voxelize.table),
-                                    .ranges = pass.read(voxelize.ranges),
-                                    .work = pass.read(work.items),
-                                    .work_bricks = pass.read(work.bricks),
-                                    .order = pass.write(work.order),
-                                    .partials = pass.readWrite(work.brick_partials),
-                                    .first_node = first_node,
-                                    .brick_count = brick_count});
+        pass.dispatch(item_count, {.bricks = pass.read(voxelize.table),
+                                   .ranges = pass.read(voxelize.ranges),
+                                   .work = pass.read(work.items),
+                                   .work_bricks = pass.read(work.bricks),
+                                   .order = pass.write(work.order),
+                                   .partials = pass.readWrite(work.brick_partials),
+                                   .first_node = first_node,
+                                   .brick_count = item_count});
     }
     scanBlocks(graph, work.brick_partials, 0, block_count, work);
     {
@@ -106,13 +117,15 @@ void numberLeaves(vk::FrameGraph& graph, VoxelizeBuffers& voxelize, OctreeBuildB
                                                                  .brick_count = brick_count});
     }
     const std::uint32_t lanes = tunedValue(graph.device(), Tunable::BrickLanes);
-    vk::Pass pass = graph.addPass(brickLeaves(graph.device(), octree.grid, voxelize.form));
+    vk::Pass pass = graph.addPass(brickLeaves(graph.device(), octree.grid, voxelize.form, voxelize.fill_planes));
     pass.dispatch(std::uint64_t{brick_count} * lanes, {.bricks = pass.read(voxelize.table),
                                                        .ranges = pass.read(voxelize.ranges),
                                                        .order = pass.read(work.order),
                                                        .masks = pass.read(voxelize.masks),
+                                                       .crossings = pass.read(voxelize.crossings),
                                                        .nodes = pass.readWrite(octree.nodes),
-                                                       .mixed = pass.write(mixed),
+                                                       .mixed = pass.write(leaves.mixed),
+                                                       .occupied = pass.write(leaves.occupied),
                                                        .first_leaf = octree.levels.back().first_node,
                                                        .brick_count = brick_count});
 }
@@ -139,19 +152,23 @@ std::uint64_t OctreeBuildBuffers::bytes(std::uint64_t table_capacity, std::uint6
            (partialCount(table_capacity) + 2 * brick_capacity) * sizeof(gpu::uint);
 }
 
-void listNodes(vk::FrameGraph& graph, const Grid& grid, VoxelizeBuffers& voxelize, OctreeBuildBuffers& work)
+void listNodes(vk::FrameGraph& graph, const GridTile& tile, VoxelizeBuffers& voxelize, OctreeBuildBuffers& work)
 {
+    const Grid& grid = tile.grid;
     const std::uint32_t max_groups_x = graph.device().limits().maxComputeWorkGroupCount[0];
     graph.fill(work.counters, 0);
     graph.fill(work.ranges, 0);
     graph.fill(work.args, 0);
     {
-        vk::Pass pass = graph.addPass(gpu::voxelize::CollectBricks{
-            .mixed = voxelize.form.mixed, .brick_lanes = tunedValue(graph.device(), Tunable::BrickLanes)});
+        vk::Pass pass =
+            graph.addPass(gpu::voxelize::CollectBricks{.mixed = voxelize.form.mixed,
+                                                       .brick_lanes = tunedValue(graph.device(), Tunable::BrickLanes),
+                                                       .fill_planes = voxelize.fill_planes});
         pass.dispatchIndirect(voxelize.counters, &gpu::BinCounters::collect,
                               {.bricks = pass.readWrite(voxelize.table),
                                .ranges = pass.readWrite(voxelize.ranges),
                                .masks = pass.read(voxelize.masks),
+                               .crossings = pass.read(voxelize.crossings),
                                .work = pass.write(work.items),
                                .work_bricks = pass.write(work.bricks),
                                .counters = pass.readWrite(voxelize.counters),
@@ -175,10 +192,23 @@ void listNodes(vk::FrameGraph& graph, const Grid& grid, VoxelizeBuffers& voxeliz
                                .max_groups_x = max_groups_x},
                               divideUp(work.items.count(), gpu::kNodesGroup));
     }
+    for (std::uint32_t height = 1; voxelize.fill_planes != 0 && height + 1 < grid.nodeLevels(); ++height)
+    {
+        vk::Pass pass = graph.addPass(gpu::voxelize::FillNodes{.wide_keys = hasWideKeys(grid)});
+        pass.dispatchIndirect(work.args, height,
+                              {.bricks = pass.readWrite(voxelize.table),
+                               .items = pass.read(work.items),
+                               .ranges = pass.read(work.ranges),
+                               .counters = pass.readWrite(work.counters),
+                               .window = windowOf(tile),
+                               .brick_mask = static_cast<std::uint32_t>(voxelize.table.count() - 1),
+                               .height = height},
+                              divideUp(work.items.count(), gpu::kNodesGroup));
+    }
 }
 
-void numberNodes(vk::FrameGraph& graph, VoxelizeBuffers& voxelize, OctreeBuildBuffers& work,
-                 vk::BufferOf<gpu::MixedVoxels>& mixed, DeviceTree& octree)
+void numberNodes(vk::FrameGraph& graph, VoxelizeBuffers& voxelize, OctreeBuildBuffers& work, LeafBuffers& leaves,
+                 DeviceTree& octree)
 {
     // Passes that put numbers where masks were cannot come twice: what can fail comes before the first of them.
     const bool wide = hasWideKeys(octree.grid);
@@ -189,13 +219,17 @@ void numberNodes(vk::FrameGraph& graph, VoxelizeBuffers& voxelize, OctreeBuildBu
     kernels.get(gpu::octree::Assign{});
     kernels.get(gpu::voxelize::PlaceBricks{.wide_keys = wide});
     kernels.get(gpu::voxelize::BrickBases{});
-    kernels.get(brickLeaves(graph.device(), octree.grid, voxelize.form));
+    kernels.get(brickLeaves(graph.device(), octree.grid, voxelize.form, voxelize.fill_planes));
     graph.fill(work.partials, 0);
+    if (voxelize.fill_planes != 0)
+    {
+        graph.fill(octree.nodes, 0); // full nodes have no items that would write them
+    }
     const std::size_t level_count = octree.levels.size() - 1; // without the leaves
     std::uint32_t item_end = 0;                               // the root is the last item
     for (std::size_t level = 0; level < level_count; ++level)
     {
-        item_end += octree.levels[level].node_count;
+        item_end += work.item_counts[level];
     }
     std::uint64_t first_block = 0;
     if (level_count != 0)
@@ -205,14 +239,14 @@ void numberNodes(vk::FrameGraph& graph, VoxelizeBuffers& voxelize, OctreeBuildBu
     for (std::size_t level = 0; level < level_count; ++level)
     {
         const std::uint32_t node_count = octree.levels[level].node_count;
-        item_end -= node_count;
+        item_end -= work.item_counts[level];
         if (level >= gpu::kRootLevels)
         {
             numberLevel(graph, voxelize.table, work, octree, level, item_end, first_block);
             first_block += divideUp(node_count, gpu::kScanBlock);
         }
     }
-    numberLeaves(graph, voxelize, work, mixed, octree);
+    numberLeaves(graph, voxelize, work, leaves, octree);
 }
 
 static_assert(kLoneNodes == gpu::kNodesGroup);
@@ -262,18 +296,37 @@ void averageNodes(vk::FrameGraph& graph, const GpuScene& scene, DeviceTree& octr
     pass.dispatch(threads, params);
 }
 
-void makeLeafWords(vk::FrameGraph& graph, const DeviceTree& octree, vk::BufferOf<gpu::Node>& pool,
-                   vk::BufferOf<gpu::uvec2>& leaf_groups)
+void inheritColors(vk::FrameGraph& graph, DeviceTree& octree)
+{
+    for (std::size_t level = 0; level + 1 < octree.levels.size(); ++level)
+    {
+        const auto [first_node, node_count] = octree.levels[level];
+        vk::Pass pass = graph.addPass(gpu::octree::Inherit{});
+        pass.dispatch(node_count, {.nodes = pass.read(octree.nodes),
+                                   .attributes = pass.readWrite(octree.node_attributes),
+                                   .first_node = first_node,
+                                   .node_count = node_count});
+    }
+}
+
+void makeLeafWords(vk::FrameGraph& graph, const DeviceTree& octree, const vk::BufferOf<gpu::uvec2>& occupied,
+                   vk::BufferOf<gpu::Node>& pool, vk::BufferOf<gpu::uvec2>& leaf_groups)
 {
     const auto [first_leaf, leaf_count] = octree.levels.back();
-    vk::Pass pass = graph.addPass(gpu::octree::LeafWords{});
-    pass.dispatch(octree.node_count, {.from = pass.read(octree.nodes),
-                                      .to = pass.write(pool),
-                                      .leaf_groups = pass.write(leaf_groups),
-                                      .inner_count = first_leaf,
-                                      .leaf_count = leaf_count,
-                                      .first_parent = octree.levels[octree.levels.size() - 2].first_node,
-                                      .attribute_offset = firstLeafGroup(first_leaf, leaf_count).y});
+    const bool is_filled = occupied.count() != 0;
+    vk::Pass pass = graph.addPass(gpu::octree::LeafWords{.filled = is_filled});
+    const gpu::Ptr<gpu::Node> to = pass.write(pool);
+    pass.dispatch(std::max(octree.node_count, is_filled ? gpu::kFullNodeCount : 0U),
+                  {.from = pass.read(octree.nodes),
+                   .occupied = pass.read(occupied),
+                   .to = to,
+                   .surface = {to.address},
+                   .leaf_groups = pass.write(leaf_groups),
+                   .inner_count = first_leaf,
+                   .leaf_count = leaf_count,
+                   .first_parent = octree.levels[octree.levels.size() - 2].first_node,
+                   .attribute_offset = firstLeafGroup(first_leaf, leaf_count).y,
+                   .first_full = is_filled ? firstFullNode(first_leaf, leaf_count) : 0U});
 }
 
 } // namespace zvo

@@ -21,6 +21,8 @@ namespace
 
 constexpr std::uint64_t kReadbackBytes = 1024; // counters, level ranges
 
+constexpr std::uint32_t kFilledDepthMin = 3; // a filled tree has leaf words
+
 constexpr std::uint32_t kRetriesMax = 32; // a table of one brick grows to the largest in half of them
 
 // Rounds the table's capacity up to a power of two, whatever was asked for.
@@ -78,6 +80,10 @@ OctreeBuilder::OctreeBuilder(vk::Device& device, const PosedGpuScene& scene, con
     {
         throw Error(ErrorCode::Usage, "attributes were asked of a scene that was uploaded without them");
     }
+    if (options.fill != Fill::None && (grid.depth < kFilledDepthMin || tile.depth != grid.depth))
+    {
+        throw Error(ErrorCode::Usage, "only whole grids with a resolution of 8 or more can be filled");
+    }
     m_step = {&OctreeBuilder::cover, &OctreeBuilder::learnCoverage};
     m_readback = {device, kReadbackBytes};
     m_result.octree.grid = grid;
@@ -86,6 +92,7 @@ OctreeBuilder::OctreeBuilder(vk::Device& device, const PosedGpuScene& scene, con
     m_int64 = sums.int64;
     m_form.coverage = options.coverage;
     m_form.attributes = options.attributes;
+    m_form.fill = options.fill;
     m_form.emission = options.attributes && uploaded.emission_scale > 0.0F;
     m_form.mixed = sums.mixed && options.attributes && !options.keep_sums && !m_form.emission &&
                    (options.sum_form || hasLargeTriangles(uploaded, grid));
@@ -110,7 +117,7 @@ void OctreeBuilder::cover(vk::FrameGraph& graph)
             {m_device, capacities, m_scene.uploaded(), m_form}, {m_device, capacities.table, capacities.bricks}, {}});
     }
     voxelizeCoverage(graph, voxelizeJob());
-    listNodes(graph, m_tile.grid, m_bricks->voxelize, m_bricks->work);
+    listNodes(graph, m_tile, m_bricks->voxelize, m_bricks->work);
     m_offsets.bins = m_readback.copy(graph, m_bricks->voxelize.counters, 0, 1);
     m_offsets.nodes = m_readback.copy(graph, m_bricks->work.counters, 0, 1);
     m_offsets.ranges = m_readback.copy(graph, m_bricks->work.ranges, 0, m_tile.grid.nodeLevels());
@@ -135,6 +142,7 @@ void OctreeBuilder::learnCoverage()
         throwUncountable("voxels");
     }
     m_result.dropped = droppedTriangles(bins);
+    m_result.open_lines = bins.open_lines;
     m_item_count = bins.item_count;
     m_mixed_count = bins.mixed_count;
     allocateNodes(bins, nodes);
@@ -162,7 +170,13 @@ void OctreeBuilder::allocateNodes(const gpu::BinCounters& bins, const gpu::Brick
 {
     DeviceTree& octree = m_result.octree;
     const std::uint32_t level_count = octree.grid.nodeLevels();
-    const std::uint32_t inner_count = level_count > 1 ? nodes.node_count : 0;
+    std::uint32_t inner_count = level_count > 1 ? nodes.node_count : 0;
+    octree.interior_count = bins.filled_lo + (std::uint64_t{bins.filled_hi} << 32);
+    for (std::uint32_t height = 0; height + 1 < level_count; ++height)
+    {
+        inner_count += nodes.full_nodes[height];
+        octree.interior_count += std::uint64_t{nodes.full_nodes[height]} << (12 + 6 * height);
+    }
     requireIndexable(inner_count + bins.leaf_count, m_form.attributes ? bins.voxel_count : 0);
     octree.node_count = inner_count + bins.leaf_count;
     octree.voxel_count = bins.voxel_count;
@@ -172,10 +186,13 @@ void OctreeBuilder::allocateNodes(const gpu::BinCounters& bins, const gpu::Brick
     }
     const auto listed = m_readback.at<gpu::LevelRange>(m_offsets.ranges, level_count - 1);
     std::uint32_t first_node = 0;
-    for (auto range = listed.rbegin(); range != listed.rend(); ++range)
+    m_bricks->work.item_counts.clear();
+    for (std::size_t height = listed.size(); height-- > 0;)
     {
-        octree.levels.push_back({first_node, range->count});
-        first_node += range->count;
+        const std::uint32_t count = listed[height].count + nodes.full_nodes[height];
+        m_bricks->work.item_counts.push_back(listed[height].count);
+        octree.levels.push_back({first_node, count});
+        first_node += count;
     }
     octree.levels.push_back({first_node, bins.leaf_count});
     octree.nodes = {m_device, "octree/nodes", octree.node_count};
@@ -184,16 +201,28 @@ void OctreeBuilder::allocateNodes(const gpu::BinCounters& bins, const gpu::Brick
 void OctreeBuilder::number(vk::FrameGraph& graph)
 {
     const std::uint32_t leaf_count = m_result.octree.levels.back().node_count;
-    if (m_form.mixed && m_bricks->mixed.count() == 0)
+    LeafBuffers& leaves = m_bricks->leaves;
+    if (m_form.mixed && leaves.mixed.count() == 0)
     {
         m_device.memory().require(leaf_count * sizeof(gpu::MixedVoxels), "the leaves of bricks");
-        m_bricks->mixed = {m_device, "voxelize/mixed_voxels", leaf_count};
+        leaves.mixed = {m_device, "voxelize/mixed_voxels", leaf_count};
     }
-    numberNodes(graph, m_bricks->voxelize, m_bricks->work, m_bricks->mixed, m_result.octree);
+    if (m_form.fill != Fill::None && leaves.occupied.count() == 0)
+    {
+        const DeviceTree& octree = m_result.octree;
+        const std::uint32_t brick_count = octree.levels[octree.levels.size() - 2].node_count;
+        m_device.memory().require(leaf_count * sizeof(gpu::uvec2) + brick_count * sizeof(gpu::uint),
+                                  "the leaves of bricks");
+        m_bricks->work.order = {m_device, "octree/brick_order", brick_count};
+        m_bricks->work.brick_partials = {m_device, "octree/brick_partials", divideUp(brick_count, gpu::kScanBlock)};
+        leaves.occupied = {m_device, "octree/occupied", leaf_count};
+    }
+    numberNodes(graph, m_bricks->voxelize, m_bricks->work, leaves, m_result.octree);
 }
 
 void OctreeBuilder::endNumbers()
 {
+    m_occupied = std::move(m_bricks->leaves.occupied);
     if (!m_form.attributes)
     {
         m_bricks.reset();
@@ -202,6 +231,7 @@ void OctreeBuilder::endNumbers()
     }
     VoxelizeBuffers& voxelize = m_bricks->voxelize;
     voxelize.masks = {};
+    voxelize.crossings = {};
     voxelize.ranges = {};
     voxelize.large = {};
     m_bricks->work.items = {};
@@ -227,7 +257,7 @@ void OctreeBuilder::attributes(vk::FrameGraph& graph)
         octree.voxel_attributes = std::move(voxel_attributes); // all or nothing: the step may come again
         octree.emission_words = std::move(emission_words);
     }
-    voxelizeAttributes(graph, voxelizeJob(), m_item_count, m_int64, m_bricks->mixed, *m_sums, octree);
+    voxelizeAttributes(graph, voxelizeJob(), m_item_count, m_int64, m_bricks->leaves.mixed, *m_sums, octree);
     m_offsets.max_fragments = m_readback.copy(graph, m_sums->max_fragments, 0, 1);
     if (m_form.emission)
     {
@@ -291,6 +321,10 @@ void OctreeBuilder::average(vk::FrameGraph& graph)
         octree.node_attributes = {m_device, "octree/node_attributes", octree.node_count};
     }
     averageNodes(graph, m_scene.uploaded(), octree);
+    if (m_form.fill != Fill::None)
+    {
+        inheritColors(graph, octree);
+    }
     addLeafWords(graph);
 }
 
@@ -305,15 +339,19 @@ void OctreeBuilder::addLeafWords(vk::FrameGraph& graph)
     }
     if (m_pool.count() == 0)
     {
-        const std::uint64_t pool_nodes =
-            divideUp(std::uint64_t{2} * octree.node_count - leaf_words, ListPacking::kWordsOfNode);
+        const std::uint64_t inner_count = octree.node_count - leaf_words;
         const std::uint64_t group_count =
-            1 + divideUp(std::uint64_t{2} * octree.node_count - leaf_words, gpu::kLeafGroup);
+            gpu::kFirstLeafGroup + divideUp(2 * inner_count + leaf_words, gpu::kLeafGroup);
+        std::uint64_t pool_nodes = firstFullNode(inner_count, leaf_words);
+        if (m_form.fill != Fill::None)
+        {
+            pool_nodes += gpu::kFullNodeCount + divideUp(leaf_words, ListPacking::kWordsOfNode);
+        }
         m_device.memory().require(pool_nodes * sizeof(gpu::Node) + group_count * sizeof(gpu::uvec2), "the leaves");
         octree.leaf_groups = {m_device, "octree/leaf_groups", group_count};
         m_pool = {m_device, octree.nodes.name(), pool_nodes};
     }
-    makeLeafWords(graph, octree, m_pool, octree.leaf_groups);
+    makeLeafWords(graph, octree, m_occupied, m_pool, octree.leaf_groups);
 }
 
 void OctreeBuilder::end()
@@ -323,7 +361,9 @@ void OctreeBuilder::end()
     {
         m_result.octree.nodes = std::move(m_pool);
         m_result.octree.leaf_words = m_result.octree.levels.back().node_count;
+        m_result.octree.filled = m_form.fill != Fill::None;
     }
+    m_occupied = {};
     finish();
 }
 

@@ -32,6 +32,7 @@ struct BuildOptions
     /// By default, what suits the device, with sums of mixed voxels alone only where triangles are large enough. Where
     /// sums are kept, or something emits light, all voxels have sums in any case.
     std::optional<SumForm> sum_form = std::nullopt;
+    Fill fill = Fill::None;
 };
 
 /// GPU time of those passes that belong to an operation, "voxelize" or "octree": its kernels and the fills of its
@@ -43,9 +44,10 @@ struct BuildResult
 {
     DeviceTree octree;
     std::map<std::string, std::uint64_t> dropped; // triangles left out, by reason; only reasons that occurred
-    std::vector<vk::PassTime> passes;             // of the runs that succeeded
-    VoxelizeCapacities capacities;                // those that sufficed
-    std::uint32_t retry_count = 0;                // runs that were thrown away because something was too small
+    std::uint32_t open_lines = 0;     // vertical lines of voxels that are inside below all triangles: the scene is open
+    std::vector<vk::PassTime> passes; // of the runs that succeeded
+    VoxelizeCapacities capacities;    // those that sufficed
+    std::uint32_t retry_count = 0;    // runs that were thrown away because something was too small
 
     /// operationMs() of the passes.
     [[nodiscard]] double operationMs(std::string_view operation) const { return zvo::operationMs(passes, operation); }
@@ -58,7 +60,7 @@ struct BuildResult
 /// For a GridTile that is a part of the grid, the result is an octree of the whole grid with the voxels in that tile.
 /// These voxels and their attributes are a slice, in Morton order, of those of the whole grid, as long as no voxel has
 /// more than 65,535 fragments. BuildResult::dropped is that of the whole grid. A scene without triangles in the grid
-/// gives an octree without nodes.
+/// gives an octree without nodes. Only whole grids of depth 3 or more are filled.
 class OctreeBuilder final : public BuildJob<OctreeBuilder, BuildResult>
 {
 public:
@@ -72,14 +74,14 @@ private:
     {
         VoxelizeBuffers voxelize;
         OctreeBuildBuffers work;
-        vk::BufferOf<gpu::MixedVoxels> mixed; // [leaves] with VoxelForm::mixed, allocated when their number is known
+        LeafBuffers leaves; // allocated when their number is known
     };
     // Where the values of the last step stand in the readback.
     struct ReadbackOffsets
     {
         std::uint64_t bins = 0;
         std::uint64_t nodes = 0;
-        std::uint64_t ranges = 0;
+        std::uint64_t ranges = 0; // of work items, by level
         std::uint64_t max_fragments = 0;
         std::uint64_t emissive_count = 0;
     };
@@ -110,7 +112,8 @@ private:
     std::uint32_t m_item_count = 0;  // of all bricks
     std::uint32_t m_mixed_count = 0; // mixed voxels, where they alone have sums
     std::uint32_t m_emissive_count = 0;
-    vk::BufferOf<gpu::Node> m_pool; // takes the place of the nodes in the end
+    vk::BufferOf<gpu::uvec2> m_occupied; // masks of the leaves of a filled tree
+    vk::BufferOf<gpu::Node> m_pool;      // takes the place of the nodes in the end
     ReadbackOffsets m_offsets;
 };
 

@@ -225,6 +225,7 @@ SvdagBuilder::SvdagBuilder(vk::Device& device, DeviceTree source, const Compress
       m_has_ranks(m_source.hasAttributes() || options.ranks)
 {
     requireLevels(m_source);
+    requireUnfilled(m_source, "be compressed");
     m_result.dag.structure = TreeStructure::Svdag;
     m_result.dag.lists.octree_node_count = m_source.octreeNodeCount();
     if (m_source.node_count == 0)

@@ -75,15 +75,18 @@ struct DeviceTree
     std::uint64_t version = newVersion(); // of the contents: whoever changes these sets a new version
     TreeStructure structure = TreeStructure::Svo;
     Grid grid;
-    std::uint32_t node_count = 0;  // without overlays
-    std::uint32_t leaf_words = 0;  // of the nodes, those that are leaf words: all leaves of a tree of several levels
-    std::uint32_t voxel_count = 0; // likewise
+    std::uint32_t node_count = 0;     // without overlays
+    std::uint32_t leaf_words = 0;     // of the nodes, those that are leaf words: all leaves of a tree of several levels
+    std::uint32_t voxel_count = 0;    // likewise; those with attributes, if the tree is filled
+    bool filled = false;              // has surface masks and full nodes (shaders/shared/octree.h)
+    std::uint64_t interior_count = 0; // voxels of a filled tree that are inside and not on the surface
     std::vector<Level> levels; // grid.nodeLevels() of them; empty without voxels, or if nodes do not stand by levels
 
     /// As many elements as nodes, leaf words and lists take. With room for overlays: a slot for the root that is
     /// traced, the other static nodes and the lists, the static root, then overlays.
     vk::BufferOf<gpu::Node> nodes;
-    vk::BufferOf<gpu::uvec2> leaf_groups;          // [1 + ceil(nodeWords() / kLeafGroup)] of an octree with leaf words
+    vk::BufferOf<gpu::uvec2> leaf_groups; // [kFirstLeafGroup + ceil((2 * innerCount() + leaf_words) / kLeafGroup)]
+                                          // of an octree with leaf words
     vk::BufferOf<gpu::Attribute> voxel_attributes; // [voxel_count] in Morton order, then those of overlays; or empty
     /// [octreeNodeCount()] averages of the attributes below each node, or empty. Those of a DAG stand depth first: a
     /// node before its children, children in Morton order. With room for overlays: that of the slot, those of the other
@@ -109,11 +112,19 @@ struct DeviceTree
     [[nodiscard]] bool hasAttributes() const { return attributeFormat() != AttributeFormat::None; }
     [[nodiscard]] bool hasNodeAttributes() const { return node_attributes.count() + packed.nodes.count() != 0; }
 
+    /// Voxels, those that are inside included.
+    [[nodiscard]] std::uint64_t occupiedCount() const { return voxel_count + interior_count; }
+
     /// Nodes that are no leaf words.
     [[nodiscard]] std::uint32_t innerCount() const { return node_count - leaf_words; }
 
-    /// Words of 64 bits of nodes and leaf words, which the lists stand behind.
-    [[nodiscard]] std::uint64_t nodeWords() const { return std::uint64_t{2} * node_count - leaf_words; }
+    /// Words of 64 bits of nodes, leaf words, full nodes and surface masks, which the lists stand behind.
+    [[nodiscard]] std::uint64_t nodeWords() const
+    {
+        const std::uint64_t words = std::uint64_t{2} * node_count - leaf_words;
+        const std::uint64_t full_nodes = (words + 1) / 2 + gpu::kFullNodeCount;
+        return filled ? 2 * full_nodes + leaf_words : words; // the surface masks end the pool
+    }
 
     /// What, added to the number of a leaf, gives its reference (shaders/shared/octree.h).
     [[nodiscard]] std::uint32_t leafReference() const { return leaf_words != 0 ? gpu::kLeafWords + innerCount() : 0; }
@@ -144,6 +155,9 @@ struct DeviceTree
                emission.bytes();
     }
 };
+
+/// Throws Error{Usage} for a filled tree. what: cannot be done with one, as "be compressed".
+void requireUnfilled(const DeviceTree& tree, const char* what);
 
 /// The arrays of a DAG with attributes from which ranks are summed up; of an octree, the leaf groups. Declares that
 /// pass reads them.

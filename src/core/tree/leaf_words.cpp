@@ -22,20 +22,24 @@ std::uint32_t voxelsIn(std::uint64_t mask)
     return static_cast<std::uint32_t>(std::popcount(mask));
 }
 
-// words: of inner nodes, and the leaf words behind them.
-std::vector<gpu::uvec2> leafGroups(std::span<const std::uint64_t> words, std::uint64_t inner_count)
+// leaves: whose leaf words stand behind so many inner nodes.
+std::vector<gpu::uvec2> leafGroups(std::span<const gpu::Node> leaves, std::uint64_t inner_count, bool is_filled)
 {
-    std::vector<gpu::uvec2> groups = {firstLeafGroup(inner_count, words.size() - 2 * inner_count)};
+    const std::size_t word_count = 2 * inner_count + leaves.size();
+    const std::uint64_t surface = firstFullNode(inner_count, leaves.size()) + gpu::kFullNodeCount - inner_count;
+    std::vector<gpu::uvec2> groups = {firstLeafGroup(inner_count, leaves.size()),
+                                      {is_filled ? static_cast<gpu::uint>(surface) : 0U, 0U}};
     std::uint32_t voxels = 0;
-    for (std::size_t first = 0; first < words.size(); first += gpu::kLeafGroup)
+    for (std::size_t first = 0; first < word_count; first += gpu::kLeafGroup)
     {
         const std::uint32_t before_group = voxels;
         std::array<std::uint32_t, gpu::kLeafGroup> before{}; // behind the last leaf, as for that
         for (std::size_t i = 0; i < gpu::kLeafGroup; ++i)
         {
             const std::size_t word = first + i;
-            before[i] = word < words.size() ? voxels - before_group : before[i - 1];
-            voxels += word >= 2 * inner_count && word < words.size() ? voxelsIn(words[word]) : 0;
+            before[i] = word < word_count ? voxels - before_group : before[i - 1];
+            voxels +=
+                word >= 2 * inner_count && word < word_count ? voxelsIn(cellMask(leaves[word - 2 * inner_count])) : 0;
         }
         groups.emplace_back(before_group, before[2] | before[4] << gpu::kGroupShift2 | before[6] << gpu::kGroupShift3);
     }
@@ -70,11 +74,31 @@ void shiftTree(std::span<const DeviceTree::Level> levels, std::uint64_t long_ent
     }
 }
 
+// Sets the bases of full nodes, whose masks are empty: their children would come where those of the nodes before end.
+void setFullBases(TreeData& tree)
+{
+    for (std::size_t level = 0; level + 1 < tree.levels.size(); ++level)
+    {
+        gpu::uint next = tree.levels[level + 1].first_node;
+        for (gpu::Node& node :
+             std::span(tree.nodes).subspan(tree.levels[level].first_node, tree.levels[level].node_count))
+        {
+            node = cellMask(node) == 0 ? gpu::Node{0, next, 0, next} : node;
+            next += voxelsIn(cellMask(node));
+        }
+    }
+}
+
 } // namespace
+
+std::uint32_t firstFullNode(std::uint64_t inner_count, std::uint64_t leaf_count)
+{
+    return static_cast<std::uint32_t>(divideUp(2 * inner_count + leaf_count, ListPacking::kWordsOfNode));
+}
 
 gpu::uvec2 firstLeafGroup(std::uint64_t inner_count, std::uint64_t leaf_count)
 {
-    const std::uint64_t pool_nodes = divideUp(2 * inner_count + leaf_count, ListPacking::kWordsOfNode);
+    const std::uint64_t pool_nodes = firstFullNode(inner_count, leaf_count);
     return {static_cast<gpu::uint>(inner_count), static_cast<gpu::uint>(inner_count + leaf_count - pool_nodes)};
 }
 
@@ -98,14 +122,24 @@ TreePool poolOf(const TreeData& tree)
         shiftTree(tree.levels, tree.long_entry_count, {moved, moved + gpu::kLeafWords + (is_dag ? 0U : words), words},
                   inner, lists);
     }
+    const std::uint32_t first_full = firstFullNode(inner_count, pool.leaf_words);
+    const gpu::Node full = {~0U, gpu::kFullNodes | first_full, ~0U, (gpu::kFullNodes | first_full) + 32};
+    std::ranges::replace_if(
+        inner, [](const gpu::Node& node) { return cellMask(node) == 0; }, full);
     std::vector<std::uint64_t> words = wordsOf(inner);
-    for (std::uint64_t leaf = inner_count; pool.leaf_words != 0 && leaf < node_count; ++leaf)
+    const std::span<const gpu::Node> leaves = std::span(tree.nodes).last(pool.leaf_words);
+    const auto append_masks = [&] { std::ranges::transform(leaves, std::back_inserter(words), cellMask); };
+    if (tree.isFilled())
     {
-        words.push_back(cellMask(tree.nodes[leaf]));
+        words.insert(words.end(), tree.occupied.begin(), tree.occupied.end());
+        const std::vector<gpu::Node> full_nodes(gpu::kFullNodeCount, full);
+        words.resize(ListPacking::kWordsOfNode * std::size_t{first_full}, 0);
+        std::ranges::copy(wordsOf(full_nodes), std::back_inserter(words));
     }
+    append_masks();
     if (pool.leaf_words != 0 && !is_dag)
     {
-        pool.leaf_groups = leafGroups(words, inner_count);
+        pool.leaf_groups = leafGroups(leaves, inner_count, tree.isFilled());
     }
     std::ranges::copy(packEntries(lists, packing.per_word), std::back_inserter(words));
     pool.nodes = nodesOf(words);
@@ -130,7 +164,21 @@ void setNodes(std::span<const gpu::Node> pool, const DeviceTree& from, TreeData&
     const std::vector<std::uint64_t> words = wordsOf(pool);
     const bool is_dag = from.isDag();
     tree.nodes.assign(pool.begin(), pool.begin() + from.innerCount());
-    appendLeaves(std::span(words).subspan(2 * std::uint64_t{from.innerCount()}, from.leaf_words), tree);
+    std::ranges::replace_if(
+        tree.nodes, [&](const gpu::Node& node) { return from.filled && (node.base_lo & gpu::kFullNodes) != 0; },
+        gpu::Node{});
+    const std::span<const std::uint64_t> masks =
+        std::span(words).subspan(2 * std::uint64_t{from.innerCount()}, from.leaf_words);
+    if (from.filled)
+    {
+        tree.occupied.assign(masks.begin(), masks.end());
+        tree.interior_count = from.interior_count;
+        appendLeaves(std::span(words).subspan(from.nodeWords() - from.leaf_words, from.leaf_words), tree);
+    }
+    else
+    {
+        appendLeaves(masks, tree);
+    }
     const ListPacking packing = from.packing();
     if (is_dag)
     {
@@ -144,6 +192,10 @@ void setNodes(std::span<const gpu::Node> pool, const DeviceTree& from, TreeData&
         const std::uint32_t flag = from.leaf_words != 0 ? gpu::kLeafWords : 0;
         shiftTree(tree.levels, tree.long_entry_count, {moved, moved - flag - (is_dag ? 0U : leaves), 0U - leaves},
                   tree.nodes, tree.lists);
+    }
+    if (from.filled)
+    {
+        setFullBases(tree);
     }
 }
 

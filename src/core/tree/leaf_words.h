@@ -28,6 +28,9 @@ inline std::uint32_t leafWordsOf(std::span<const DeviceTree::Level> levels)
     return levels.size() > 1 ? levels.back().node_count : 0;
 }
 
+/// The node from which full nodes stand in the pool of a filled tree, then surface masks (shaders/shared/octree.h).
+std::uint32_t firstFullNode(std::uint64_t inner_count, std::uint64_t leaf_count);
+
 /// Element 0 of the leaf groups of an octree (shaders/shared/octree.h).
 gpu::uvec2 firstLeafGroup(std::uint64_t inner_count, std::uint64_t leaf_count);
 

@@ -36,13 +36,20 @@ bool hasVoxel(const TreeData& tree, const glm::ivec3& cell)
     for (std::size_t level = 0; level < tree.levels.size(); ++level)
     {
         const gpu::Node& node = tree.nodes[index];
-        const std::uint64_t mask = cellMask(node);
+        const bool is_leaf = level + 1 == tree.levels.size();
+        const bool is_filled_leaf = is_leaf && tree.isFilled();
+        const std::uint64_t mask =
+            is_filled_leaf ? tree.occupied[index - tree.levels.back().first_node] : cellMask(node);
+        if (!is_leaf && mask == 0)
+        {
+            return true; // a full node
+        }
         const std::uint64_t child = code >> (kCellBits * (tree.levels.size() - 1 - level)) & 63U;
         if ((mask >> child & 1U) == 0)
         {
             return false;
         }
-        if (level + 1 < tree.levels.size())
+        if (!is_leaf)
         {
             index = tree.child(node, rankOf(mask, child));
         }

@@ -40,8 +40,13 @@ std::uint64_t TreeData::geometryBytes() const
     const std::uint32_t leaf_words = leafWordsOf(levels);
     const std::uint64_t node_words = 2 * nodes.size() - leaf_words;
     const bool has_groups = structure == TreeStructure::Svo && leaf_words != 0;
-    const std::uint64_t group_words = has_groups ? 1 + divideUp(node_words, gpu::kLeafGroup) : 0;
+    const std::uint64_t group_words = has_groups ? gpu::kFirstLeafGroup + divideUp(node_words, gpu::kLeafGroup) : 0;
     const std::uint64_t list_words = ListPacking::tightest(node_words, node_words, lists.size()).wordCount();
+    const std::uint64_t full_nodes = firstFullNode(nodes.size() - leaf_words, leaf_words) + gpu::kFullNodeCount;
+    if (isFilled())
+    {
+        return (2 * full_nodes + leaf_words + group_words) * sizeof(std::uint64_t);
+    }
     return (node_words + group_words + list_words) * sizeof(std::uint64_t);
 }
 
@@ -68,6 +73,8 @@ DeviceTree uploadTree(vk::Uploader& device, const TreeData& tree)
     copy.node_count = static_cast<std::uint32_t>(tree.nodes.size());
     copy.leaf_words = pool.leaf_words;
     copy.voxel_count = tree.voxel_count;
+    copy.filled = tree.isFilled();
+    copy.interior_count = tree.interior_count;
     copy.levels = tree.levels;
     copy.voxel_attributes = uploadVector(device, "octree/voxel_attributes", tree.voxel_attributes);
     copy.node_attributes = uploadVector(device, "octree/node_attributes", tree.node_attributes);
@@ -89,16 +96,34 @@ DeviceTree uploadTree(vk::Uploader& device, const TreeData& tree)
 
 void forEachVoxel(const TreeData& tree, const std::function<void(std::uint64_t code)>& what)
 {
+    forEachCell(tree,
+                [&](std::uint64_t code, bool on_surface)
+                {
+                    if (on_surface)
+                    {
+                        what(code);
+                    }
+                });
+}
+
+void forEachCell(const TreeData& tree, const std::function<void(std::uint64_t code, bool on_surface)>& what)
+{
     struct Open // a node with children still to come
     {
-        const gpu::Node* node;
-        std::uint64_t rest; // cells
-        std::uint32_t rank; // of the next child
+        const gpu::Node* node; // none below a full one
+        std::uint64_t rest;    // cells
+        std::uint32_t rank;    // of the next child
         std::uint64_t code;
     };
+    constexpr std::uint64_t kAll = ~std::uint64_t{0};
     std::vector<Open> path;
-    const auto open = [&](std::uint32_t index, std::uint64_t code) {
-        path.push_back({&tree.nodes[index], cellMask(tree.nodes[index]), 0, code});
+    const auto open = [&](std::uint32_t index, std::uint64_t code)
+    {
+        const gpu::Node& node = tree.nodes[index];
+        const bool is_leaf = tree.isFilled() && path.size() + 1 == tree.levels.size();
+        const std::uint64_t cells = is_leaf ? tree.occupied[index - tree.levels.back().first_node] : cellMask(node);
+        const bool is_full = !is_leaf && cells == 0;
+        path.push_back({is_full ? nullptr : &node, is_full ? kAll : cells, 0, code});
     };
     if (!tree.nodes.empty())
     {
@@ -112,17 +137,44 @@ void forEachVoxel(const TreeData& tree, const std::function<void(std::uint64_t c
             path.pop_back();
             continue;
         }
-        const std::uint64_t code = last.code << kCellBits | static_cast<std::uint64_t>(std::countr_zero(last.rest));
+        const int cell = std::countr_zero(last.rest);
+        const std::uint64_t code = last.code << kCellBits | static_cast<std::uint64_t>(cell);
         last.rest &= last.rest - 1;
         if (path.size() == tree.levels.size())
         {
-            what(code);
+            what(code, last.node != nullptr && (cellMask(*last.node) >> cell & 1) != 0);
         }
-        else
+        else if (last.node != nullptr)
         {
             open(tree.child(*last.node, last.rank++), code);
         }
+        else
+        {
+            path.push_back({nullptr, kAll, 0, code});
+        }
     }
+}
+
+std::uint64_t interiorCount(const TreeData& tree)
+{
+    if (!tree.isFilled())
+    {
+        return 0;
+    }
+    std::uint64_t count = 0;
+    std::uint64_t voxels = 1; // of a full node
+    for (std::size_t level = tree.levels.size(); level-- > 0; voxels <<= kCellBits)
+    {
+        for (std::uint32_t i = 0; i < tree.levels[level].node_count; ++i)
+        {
+            const std::uint64_t mask = cellMask(tree.nodes[tree.levels[level].first_node + i]);
+            const bool is_leaf = level + 1 == tree.levels.size();
+            count += is_leaf     ? static_cast<std::uint64_t>(std::popcount(tree.occupied[i] & ~mask))
+                     : mask == 0 ? voxels << kCellBits
+                                 : 0;
+        }
+    }
+    return count;
 }
 
 std::optional<CellBox> voxelBox(const TreeData& tree)
@@ -140,7 +192,12 @@ std::optional<CellBox> voxelBox(const TreeData& tree)
         {
             const gpu::Node& node = tree.nodes[tree.levels[level].first_node + i];
             std::uint32_t rank = 0;
-            for (std::uint64_t rest = cellMask(node); rest != 0; rest &= rest - 1, ++rank)
+            const std::uint64_t mask = below.empty() && tree.isFilled() ? tree.occupied[i] : cellMask(node);
+            if (mask == 0) // a full node
+            {
+                boxes[i] = {glm::uvec3(0U), glm::uvec3(4 * edge)};
+            }
+            for (std::uint64_t rest = mask; rest != 0; rest &= rest - 1, ++rank)
             {
                 const auto cell = static_cast<std::uint32_t>(std::countr_zero(rest));
                 const glm::uvec3 corner = edge * cellOfCode(cell);

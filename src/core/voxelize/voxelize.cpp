@@ -17,6 +17,8 @@ namespace zvo
 
 static_assert(static_cast<gpu::uint>(Coverage::Conservative) == gpu::kCoverageConservative);
 static_assert(static_cast<gpu::uint>(Coverage::Thin) == gpu::kCoverageThin);
+static_assert(static_cast<gpu::uint>(Fill::Solid) == gpu::kFillSolid);
+static_assert(static_cast<gpu::uint>(Fill::Parity) == gpu::kFillParity);
 static_assert(Grid::kDepthMax < 1U << gpu::kWindowDepthBits);
 static_assert(GridTile::kTilesMax == 1U << gpu::kWindowIndexBits);
 static_assert(1U << (2 * (Grid::kDepthMax - gpu::kBrickLog2 - gpu::kBlockLog2Max)) <= gpu::kBlocksMax);
@@ -52,7 +54,8 @@ bool hasSurfaces(const GpuScene& scene)
 // Whether items of small triangles are looked at again: to find or to shade their voxels, or to test their alpha.
 bool needsSetups(const VoxelForm& form, const GpuScene& scene)
 {
-    return form.attributes || form.coverage == Coverage::Conservative || scene.highestClass() == MaterialClass::Alpha;
+    return form.attributes || form.fill != Fill::None || form.coverage == Coverage::Conservative ||
+           scene.highestClass() == MaterialClass::Alpha;
 }
 
 std::uint64_t surfacesOf(const VoxelForm& form, const GpuScene& scene, std::uint64_t setups)
@@ -68,6 +71,16 @@ std::uint64_t voxelsOf(const VoxelForm& form, std::uint64_t items)
 std::uint64_t maskWordsOf(const VoxelForm& form, std::uint64_t bricks)
 {
     return bricks * gpu::kLeafMaskWords * (form.mixed ? 2 : 1);
+}
+
+std::uint32_t planesOf(const VoxelForm& form, const VoxelizeCapacities& capacities)
+{
+    return form.fill == Fill::None ? 0 : capacities.fill_planes;
+}
+
+std::uint64_t crossingWordsOf(const VoxelForm& form, const VoxelizeCapacities& capacities)
+{
+    return capacities.bricks * 2 * planesOf(form, capacities) * gpu::kLeafMaskWords;
 }
 
 // Threads that share a block. In deep grids blocks may have 64^2 columns of bricks, for each of which a thread runs
@@ -170,7 +183,8 @@ void coverItems(vk::FrameGraph& graph, const VoxelizeJob& job, bool known, gpu::
                                                        .known = known,
                                                        .material_class = job.scene.uploaded().highestClass(),
                                                        .coverage = buffers.form.coverage,
-                                                       .emits = buffers.form.emission});
+                                                       .emits = buffers.form.emission,
+                                                       .fill_planes = buffers.fill_planes});
     readColorTables(pass, job.scene.uploaded());
     pass.dispatchIndirect(buffers.counters, args,
                           {.scene = job.scene.read(pass),
@@ -180,7 +194,8 @@ void coverItems(vk::FrameGraph& graph, const VoxelizeJob& job, bool known, gpu::
                            .items = pass.read(buffers.items),
                            .voxels = pass.accumulate(buffers.voxels), // a thread its own
                            .masks = pass.accumulate(buffers.masks),
-                           .counters = pass.read(buffers.counters),
+                           .crossings = pass.accumulate(buffers.crossings),
+                           .counters = pass.accumulate(buffers.counters),
                            .window = windowOf(job.tile)},
                           divideUp(buffers.items.count(), gpu::kItemsGroup));
 }
@@ -223,6 +238,10 @@ const char* VoxelizeCapacities::uncountable(const gpu::BinCounters& counters) co
     {
         return "pieces of large triangles";
     }
+    if (counters.crossings_exceeded != 0 && fill_planes >= gpu::kFillPlanesMax)
+    {
+        return "surfaces, one above the other";
+    }
     if (counters.item_carry != 0 || counters.item_count > kItemsMax || counters.setup_count > kSetupsMax)
     {
         return "pieces of triangles";
@@ -243,6 +262,11 @@ VoxelizeCapacities VoxelizeCapacities::grownFor(const gpu::BinCounters& counters
     grown.items = std::max<std::uint64_t>(items, counters.item_count);
     grown.large = std::max<std::uint64_t>(large, counters.large_count);
     grown.table = std::max(table, std::bit_ceil(2 * grown.bricks));
+    if (counters.crossings_exceeded != 0)
+    {
+        constexpr std::uint32_t kGrowth = 5; // 1, 5, 25
+        grown.fill_planes = std::min(kGrowth * fill_planes, gpu::kFillPlanesMax);
+    }
     if (counters.overflow_count != 0)
     {
         grown.table = std::min(std::max(grown.table, 4 * table), kTableMax);
@@ -255,7 +279,8 @@ std::uint64_t VoxelizeCapacities::bytes(const GpuScene& scene, const VoxelForm& 
     return table * sizeof(gpu::BrickEntry) + setups * sizeof(gpu::TriangleSetup) +
            surfacesOf(form, scene, setups) * sizeof(gpu::SurfaceSetup) + items * sizeof(gpu::BrickItem) +
            voxelsOf(form, items) * sizeof(gpu::ItemVoxels) + large * sizeof(gpu::LargeBlock) +
-           bricks * sizeof(gpu::BrickRange) + maskWordsOf(form, bricks) * sizeof(gpu::uint);
+           bricks * sizeof(gpu::BrickRange) +
+           (maskWordsOf(form, bricks) + crossingWordsOf(form, *this)) * sizeof(gpu::uint);
 }
 
 VoxelizeBuffers::VoxelizeBuffers(vk::Device& device, const VoxelizeCapacities& capacities, const GpuScene& scene,
@@ -268,6 +293,8 @@ VoxelizeBuffers::VoxelizeBuffers(vk::Device& device, const VoxelizeCapacities& c
       large(device, "voxelize/large_blocks", capacities.large),
       ranges(device, "voxelize/brick_ranges", capacities.bricks),
       masks(device, "voxelize/brick_masks", maskWordsOf(form, capacities.bricks)),
+      fill_planes(planesOf(form, capacities)),
+      crossings(device, "voxelize/crossings", crossingWordsOf(form, capacities)),
       counters(device, "voxelize/bin_counters", 1)
 {
     assert(std::has_single_bit(capacities.table));
@@ -293,6 +320,10 @@ void clearVoxels(vk::FrameGraph& graph, VoxelizeBuffers& buffers)
     graph.fill(buffers.table, 0);
     graph.fill(buffers.counters, 0);
     graph.fill(buffers.masks, 0);
+    if (buffers.fill_planes != 0)
+    {
+        graph.fill(buffers.crossings, 0);
+    }
 }
 
 void binTriangles(vk::FrameGraph& graph, const VoxelizeJob& job, MaterialClass material_class,
@@ -324,6 +355,38 @@ void coverBricks(vk::FrameGraph& graph, const VoxelizeJob& job)
     coverItems(graph, job, false, &gpu::BinCounters::cover);
 }
 
+void fillBricks(vk::FrameGraph& graph, const VoxelizeJob& job)
+{
+    VoxelizeBuffers& buffers = job.buffers;
+    if (buffers.fill_planes == 0)
+    {
+        return;
+    }
+    const bool wide = hasWideKeys(job.tile.grid);
+    const std::uint32_t window = windowOf(job.tile);
+    const std::uint64_t groups = divideUp(buffers.ranges.count(), gpu::kBricksGroup);
+    {
+        vk::Pass pass = graph.addPass(gpu::voxelize::FillColumns{.wide_keys = wide});
+        pass.dispatchIndirect(buffers.counters, &gpu::BinCounters::collect,
+                              {.bricks = pass.readWrite(buffers.table),
+                               .ranges = pass.read(buffers.ranges),
+                               .counters = pass.readWrite(buffers.counters),
+                               .window = window,
+                               .brick_mask = count32(buffers.table) - 1},
+                              groups);
+    }
+    vk::Pass pass = graph.addPass(
+        gpu::voxelize::FillVoxels{.wide_keys = wide, .fill_planes = buffers.fill_planes, .fill = buffers.form.fill});
+    pass.dispatchIndirect(buffers.counters, &gpu::BinCounters::fill,
+                          {.bricks = pass.readWrite(buffers.table),
+                           .ranges = pass.read(buffers.ranges),
+                           .crossings = pass.readWrite(buffers.crossings),
+                           .counters = pass.readWrite(buffers.counters),
+                           .window = window,
+                           .brick_mask = count32(buffers.table) - 1},
+                          groups * gpu::kFillLanes);
+}
+
 void voxelizeCoverage(vk::FrameGraph& graph, const VoxelizeJob& job)
 {
     clearVoxels(graph, job.buffers);
@@ -332,6 +395,7 @@ void voxelizeCoverage(vk::FrameGraph& graph, const VoxelizeJob& job)
         binTriangles(graph, job, material_class, 0, job.scene.uploaded().chunksOf(material_class).workgroups());
     }
     coverBricks(graph, job);
+    fillBricks(graph, job);
 }
 
 } // namespace zvo

@@ -45,6 +45,7 @@ struct VoxelForm
     bool attributes = true; // the fragments will be shaded
     bool emission = false;  // the fragments emit light; only with attributes
     bool mixed = false;     // the masks tell which voxels are mixed: several fragments share them
+    Fill fill = Fill::None;
 
     bool operator==(const VoxelForm&) const = default;
 };
@@ -68,7 +69,8 @@ struct VoxelizeCapacities
     std::uint64_t bricks = 0; // that triangles may touch
     std::uint64_t setups = 0; // of triangles that may have voxels
     std::uint64_t items = 0;
-    std::uint64_t large = 0; // blocks of large triangles
+    std::uint64_t large = 0;       // blocks of large triangles
+    std::uint32_t fill_planes = 1; // binary digits of the triangles that cross a voxel's vertical line one way
 
     /// The most entries that the 32-bit numbers of the brick table allow.
     static constexpr std::uint64_t kTableMax = 1ULL << 31;
@@ -105,6 +107,8 @@ struct VoxelizeBuffers
     vk::BufferOf<gpu::BrickRange> ranges;     // [capacities.bricks] in any order
     vk::BufferOf<gpu::uint> masks;           // gpu::kLeafMaskWords for each brick's leaves, and with form.mixed as many
                                              // for their mixed voxels
+    std::uint32_t fill_planes = 0;           // of crossings; 0: nothing is filled
+    vk::BufferOf<gpu::uint> crossings;       // 2 * fill_planes * gpu::kLeafMaskWords for each brick
     vk::BufferOf<gpu::BinCounters> counters; // [1]
 };
 
@@ -133,6 +137,10 @@ void binTriangles(vk::FrameGraph& graph, const VoxelizeJob& job, MaterialClass m
 /// Records the passes that put what large triangles are left into bricks, and then set the bit of every covered voxel
 /// in the masks of these. To be recorded after all triangles were put into bricks.
 void coverBricks(vk::FrameGraph& graph, const VoxelizeJob& job);
+
+/// Records the passes that turn the crossings of bricks into the masks of what is inside, where voxels are filled. To
+/// be recorded after coverBricks().
+void fillBricks(vk::FrameGraph& graph, const VoxelizeJob& job);
 
 /// Records the passes of coverage: all of the above. What does not fit is counted, never written. For a tile of the
 /// grid, the voxels are those of the whole grid that lie in it. Cost: triangles, items, fragments, and the capacities

@@ -89,7 +89,7 @@ std::array<Handle, 2> gridsInMemory(const TreeData& tree)
         throw Error(ErrorCode::Memory,
                     fmt::format("the host's memory does not suffice for the NanoVDB grids of {} voxels, which take "
                                 "about 14 KiB for each block of 8^3 cells with voxels: lower the resolution",
-                                tree.voxel_count));
+                                tree.occupiedCount()));
     }
 }
 

@@ -203,13 +203,13 @@ void writeVox(const TreeData& tree, const WriteBytes& write)
     const Writer graph = sceneGraph(models);
     const Writer colors = paletteChunks(palette, lamps.lamps);
     constexpr std::uint64_t kModelBytes = kChunkHeaderBytes + 12 + kChunkHeaderBytes + 4; // SIZE, and the head of XYZI
-    const std::uint64_t children_bytes = models.size() * kModelBytes + std::uint64_t{4} * tree.voxel_count +
-                                         graph.bytes().size() + colors.bytes().size();
+    const std::uint64_t children_bytes =
+        models.size() * kModelBytes + 4 * tree.occupiedCount() + graph.bytes().size() + colors.bytes().size();
     if (children_bytes > kSizeMax)
     {
         throw Error(ErrorCode::Usage, fmt::format("{} voxels in {} models make {} bytes, more than a .vox file can "
                                                   "hold (2 GiB); take a lower resolution",
-                                                  tree.voxel_count, models.size(), children_bytes));
+                                                  tree.occupiedCount(), models.size(), children_bytes));
     }
 
     Writer writer;

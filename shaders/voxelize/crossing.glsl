@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: MIT
+// Where triangles cross the vertical lines, along y, through the centres of voxels (docs/voxelization.md). A line is
+// moved by e along x and by e^2 along z, e being smaller than any number: then it passes all edges and vertices, so that
+// of triangles that share one, as many are crossed as enclose the line.
+//
+// Thin coverage covers every voxel in which a triangle crosses such a line: the crossing is on the major axis' line of
+// the voxel, too, or less than half a voxel from it, as the plane is steepest along the major axis. So the fragments of
+// a triangle are all that need a look. A crossing on the face between two voxels belongs to the upper one in mirrored
+// coordinates of the triangle, which is always covered.
+#ifndef ZVO_SHADERS_VOXELIZE_CROSSING_GLSL
+#define ZVO_SHADERS_VOXELIZE_CROSSING_GLSL
+
+#include "voxelize/setup.glsl"
+#include "voxelize/window.glsl"
+
+// Whether edge functions are positive at the moved line. edges_a, edges_b: of the two axes, in the order of the function
+// edge_a * to_b - edge_b * to_a. move_a, move_b: 1 or -1, the line's moves along them. a_first: it moves more along a.
+bvec3 areInside(i64vec3 edge, ivec3 edges_a, ivec3 edges_b, int move_a, int move_b, bool a_first)
+{
+    ivec3 by_a = -edges_b * move_a;
+    ivec3 by_b = edges_a * move_b;
+    ivec3 first = a_first ? by_a : by_b;
+    ivec3 second = a_first ? by_b : by_a;
+    ivec3 moved = mix(first, second, equal(first, ivec3(0)));
+    return bvec3(edge.x > 0l || (edge.x == 0l && moved.x > 0), edge.y > 0l || (edge.y == 0l && moved.y > 0),
+                 edge.z > 0l || (edge.z == 0l && moved.z > 0));
+}
+
+// floor((a.x b.x + a.y b.y + a.z b.z) / (kVoxelLattice / 2)): it must fit, the products need not.
+int64_t halfVoxels(i64vec3 a, ivec3 b)
+{
+    const int log2 = kVoxelLatticeLog2 - 1;
+    const int low_bits = (1 << log2) - 1;
+    ivec3 low_b = b & low_bits;
+    ivec3 low_a = ivec3(a) & low_bits;
+    i64vec3 high = a * i64vec3(b >> log2) + (a >> log2) * i64vec3(low_b);
+    ivec3 low = low_a * low_b;
+    return high.x + high.y + high.z + int64_t((low.x + low.y + low.z) >> log2);
+}
+
+// 1 where the triangle crosses the line within the voxel and faces up, -1 where it faces down, 0 where it does not
+// cross it.
+int crossing(TriangleSetup setup, ivec3 voxel)
+{
+    uint axis = setup.flags & kSetupAxis;
+    ivec2 mirror = mirrorOf(setup);
+    ivec3 place = permuted(voxel, axis);
+    place.xy ^= mirror;
+    ivec3 centre = place * kVoxelLattice + kVoxelLattice / 2;
+    ivec3 to_u = centre.x - setup.u;
+    ivec3 to_v = centre.y - setup.v;
+    ivec3 to_w = centre.z - setup.w;
+    ivec3 edge_u = setup.u.yzx - setup.u;
+    ivec3 edge_v = setup.v.yzx - setup.v;
+    ivec3 edge_w = setup.w.yzx - setup.w;
+    int64_t rise_u = abs(product(edge_v.x, edge_w.y) - product(edge_w.x, edge_v.y));
+    int64_t rise_v = abs(product(edge_w.x, edge_u.y) - product(edge_u.x, edge_w.y));
+    int64_t n_w = abs(product(edge_u.x, edge_v.y) - product(edge_v.x, edge_u.y));
+
+    // From the voxel's centre to the plane, times n_w along w, times -rise_u along u and -rise_v along v.
+    int64_t reach = axis == 1u ? n_w : axis == 0u ? rise_u : rise_v; // y is w, u, v
+    int64_t plane = halfVoxels(i64vec3(rise_u, rise_v, -n_w), ivec3(to_u.x, to_v.x, to_w.x));
+    bool in_top = axis == 1u && rise_u == 0l && rise_v == 0l && place.z + 1 == gridResolution(); // as topLayer() has it
+    if (plane < -reach || (in_top ? plane > reach : plane >= reach))
+        return 0;
+
+    // The triangle along y: over (u, v), (w, v) and (u, w).
+    bool is_w = axis == 0u; // a is w
+    ivec3 edges_a = is_w ? edge_w : edge_u;
+    ivec3 to_a = is_w ? to_w : to_u;
+    ivec3 edges_b = axis == 2u ? edge_w : edge_v;
+    ivec3 to_b = axis == 2u ? to_w : to_v;
+    ivec2 unmirrored = 2 * mirror + 1; // 1, or -1 where mirrored
+    int move_a = is_w ? 1 : unmirrored.x;
+    int move_b = axis == 2u ? 1 : unmirrored.y;
+    i64vec3 edge = product(edges_a, to_b) - product(edges_b, to_a);
+    if (!all(areInside(edge, edges_a, edges_b, move_a, move_b, axis != 1u)))
+        return 0;
+    bool w_is_positive = hasFlag(setup, kSetupExchanged) == (mirror.x != mirror.y); // of the normal
+    bool is_up = axis == 1u ? w_is_positive : w_is_positive == ((axis == 0u ? mirror.x : mirror.y) != 0);
+    return is_up ? 1 : -1;
+}
+
+#endif
