@@ -9,6 +9,7 @@
 #include "bench/bench_dynamic.h"
 #include "bench/bench_edit.h"
 #include "bench/bench_path.h"
+#include "bench/bench_queries.h"
 #include "bench/bench_rays.h"
 #include "bench/bench_report.h"
 #include "bench/bench_tune.h"
@@ -73,6 +74,13 @@ N strokes for each radius and action, each undone and redone; then what a stroke
 
 Examples:
   zvo-bench edit scenes/atrium.glb --structure svdag)";
+
+constexpr const char* kQueriesFooter = R"(
+Lists of questions of each kind around voxels of a scene, which an octree and its DAG answer: points, rays, boxes, the
+nearest voxel, and boxes that move.
+
+Examples:
+  zvo-bench queries scenes/atrium.glb --resolutions 256,1024)";
 
 constexpr const char* kPathFooter = R"(
 Paths in stages and in one kernel. Where zvo-bench was built with Embree, it traces the same rays of bounces, one by
@@ -246,6 +254,16 @@ void addOptions(CLI::App& app, BenchEditOptions& options)
     addTreeAndDevice(app, options);
 }
 
+void addOptions(CLI::App& app, BenchQueriesOptions& options)
+{
+    addScenes(app, options, kScenes, kUsualFolder);
+    addResolutions(app, options, "512");
+    addCount(app, "--count", options.count, 1U << 24, "questions of each kind (default 1048576)");
+    addRuns(app, options);
+    addLoadOptions(app, options.load);
+    addTreeAndDevice(app, options);
+}
+
 void addOptions(CLI::App& app, BenchPathOptions& options)
 {
     addScenes(app, options, kScenes, kUsualFolder);
@@ -336,6 +354,8 @@ void runBenchCommandLine(int argc, const char* const* argv)
     commands.add("dynamic", "measure updates of scenes in which something moves, beside full rebuilds", kDynamicFooter,
                  addOptions, benchDynamic);
     commands.add("edit", "measure strokes of a brush: dabs, undo and redo", kEditFooter, addOptions, benchEdit);
+    commands.add("queries", "measure questions to octree and DAG: points, boxes, nearest voxels", kQueriesFooter,
+                 addOptions, benchQueries);
     commands.add("path", "measure path tracing: what rays cost, and variance by the way of finding light", kPathFooter,
                  addOptions, benchPath);
     commands.add("cache", "measure pictures by the radiance cache, beside one of many paths", kCacheFooter, addOptions,

@@ -78,6 +78,11 @@ struct BenchEditOptions : RepeatedBenchOptions
     TreeStructure structure = TreeStructure::Svo;
 };
 
+struct BenchQueriesOptions : RepeatedBenchOptions
+{
+    std::uint32_t count = 1U << 20; // questions of each kind
+};
+
 struct BenchPathOptions : RepeatedBenchOptions, PictureSizeOptions
 {
     std::string camera;

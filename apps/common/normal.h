@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <cstdint>
-#include <glm/glm.hpp>
+#include "core/tree/normal.h"
 
 namespace zvo::cli
 {
 
-/// The unit vector of an octahedral code (gpu::Attribute::normal); 0 for gpu::kNoNormal.
-glm::vec3 decodeNormal(std::uint32_t code);
+using zvo::decodeNormal;
 
 } // namespace zvo::cli

@@ -9,6 +9,8 @@
 #include "core/scene/scene.h"
 #include "core/tree/tree_data.h"
 #include "io/scene/load_scene.h"
+#include "query_files.h"
+#include "zvo/query.h"
 #include "zvo/types.h"
 
 #include <array>
@@ -131,6 +133,19 @@ struct ConvertOptions
 
 /// `zvo convert`: reads a tree or voxels and writes them as another kind of file. Throws Error.
 void convert(const ConvertOptions& options);
+
+struct QueryOptions
+{
+    std::filesystem::path file;
+    std::optional<QueryKind> kind;
+    std::filesystem::path questions; // "-": standard input
+    std::optional<QueryFormat> format; // of questions and answers; not given: as the extensions say
+    OutputOptions output;
+    DeviceOptions device;
+};
+
+/// `zvo query`: answers questions to a tree. Throws Error.
+void query(const QueryOptions& options);
 
 struct InfoOptions
 {

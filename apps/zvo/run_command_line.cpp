@@ -32,6 +32,7 @@ Examples:
   zvo render scenes/atrium.glb -o atrium.png
   zvo voxelize bunny.glb --resolution 256 -o bunny.ply
   zvo build bunny.glb --resolution 2048 -o bunny.zvo
+  zvo query bunny.zvo --nearest points.csv -o distances.csv
   zvo info
 
 'zvo help COMMAND' tells the options of a command.
@@ -91,6 +92,18 @@ Examples:
   zvo convert bunny.zvo -o bunny.glb
   zvo convert castle.vox -o castle.zvo
   zvo convert bunny.zvo -o - --format morton | sha256sum)";
+
+constexpr const char* kQueryFooter = R"(
+Questions stand one in a line, of numbers with commas between them, in world units; docs/queries.md tells what is found.
+  --points  x,y,z                          which voxel is the point in
+  --rays    x,y,z,dx,dy,dz[,t_min[,t_max]] what the ray hits first
+  --boxes   x0,y0,z0,x1,y1,z1              which voxel is in the box, if it is not empty
+  --nearest x,y,z[,distance]               which voxel is nearest, at most that far away
+  --sweeps  x0,y0,z0,x1,y1,z1,dx,dy,dz     what the box meets first as it moves
+
+Examples:
+  zvo query bunny.zvo --nearest points.csv -o distances.csv
+  echo 0,5,0,0,-1,0 | zvo query bunny.zvo --rays - -o -)";
 
 constexpr const char* kInfoFooter = R"(
 Examples:
@@ -268,6 +281,48 @@ void addOptions(CLI::App& convert, ConvertOptions& options)
     addDeviceOptions(convert, options.device);
 }
 
+void addOptions(CLI::App& query, QueryOptions& options)
+{
+    query.add_option("FILE", options.file, "a .zvo or .vox file")->required()->type_name("FILE");
+    std::vector<CLI::Option*> kinds;
+    const auto addKind = [&](const char* name, QueryKind kind, const char* what)
+    {
+        CLI::Option* const option = query
+                                        .add_option_function<std::string>(
+                                            name,
+                                            [&options, kind](const std::string& file)
+                                            {
+                                                options.kind = kind;
+                                                options.questions = file;
+                                            },
+                                            what)
+                                        ->type_name("FILE");
+        for (CLI::Option* const other : kinds)
+        {
+            option->excludes(other);
+        }
+        kinds.push_back(option);
+    };
+    addKind("--points", QueryKind::Point, "points: which voxels they are in; - is standard input, here and below");
+    addKind("--rays", QueryKind::Ray, "rays: what they hit first");
+    addKind("--boxes", QueryKind::Box, "boxes: voxels in them, or that they are empty");
+    addKind("--nearest", QueryKind::Nearest, "points: the nearest voxels");
+    addKind("--sweeps", QueryKind::Sweep, "boxes that move: what they meet first");
+    addValue(
+        query, "--format", options.format,
+        [](std::string_view option, std::string_view text) {
+            return oneOf(option, text, {"csv", "bin"}) == "bin" ? QueryFormat::Binary : QueryFormat::Csv;
+        },
+        "csv|bin", "of questions and answers (default: csv, and bin for files that end in .bin)");
+    addText(query, "-o,--output", options.output.path, "FILE", "the answers, in the order of the questions; - is "
+                                                               "standard output")
+        ->required()
+        ->group("Output");
+    query.add_flag("-f,--force", options.output.overwrite, "overwrite a file that exists")->group("Output");
+    addQuietOption(query);
+    addDeviceOptions(query, options.device);
+}
+
 void addOptions(CLI::App& info, InfoOptions& options)
 {
     info.add_flag("--json", options.json, "as JSON");
@@ -294,6 +349,8 @@ int runCommandLine(int argc, const char* const* argv)
             commands.add("validate", "check everything in a .zvo or .vox file", kValidateFooter, addOptions, validate);
             commands.add("convert", "make another kind of file of a .zvo or .vox file", kConvertFooter, addOptions,
                          convert);
+            commands.add("query", "ask a .zvo or .vox file about points, rays and boxes", kQueryFooter, addOptions,
+                         query);
             commands.add("info", "list the Vulkan devices and what they offer", kInfoFooter, addOptions, info);
             commands.run(argc, argv);
         });

@@ -112,6 +112,25 @@ enum
                                 ///< attributes
 };
 
+/// Questions to a tree (zvo/query.h).
+typedef uint32_t ZvoQueryKind;
+enum
+{
+    ZVO_QUERY_KIND_POINT = 0,   ///< the voxel that a point is in
+    ZVO_QUERY_KIND_RAY = 1,     ///< the first voxel that a ray hits
+    ZVO_QUERY_KIND_BOX = 2,     ///< a voxel in a box
+    ZVO_QUERY_KIND_NEAREST = 3, ///< the nearest voxel to a point
+    ZVO_QUERY_KIND_SWEEP = 4    ///< the first voxel that a box meets which moves
+};
+
+typedef uint32_t ZvoQueryState;
+enum
+{
+    ZVO_QUERY_STATE_NOTHING = 0,  ///< there is no such voxel
+    ZVO_QUERY_STATE_FOUND = 1,    ///< there is
+    ZVO_QUERY_STATE_UNDECIDED = 2 ///< the walk through the tree took too long (docs/queries.md)
+};
+
 /// How texture coordinates outside of an image are treated.
 typedef uint32_t ZvoWrapMode;
 enum
@@ -220,6 +239,22 @@ enum class BrushAction : ZvoBrushAction
     Carve = ZVO_BRUSH_ACTION_CARVE,
     Fill = ZVO_BRUSH_ACTION_FILL,
     Paint = ZVO_BRUSH_ACTION_PAINT,
+};
+
+enum class QueryKind : ZvoQueryKind
+{
+    Point = ZVO_QUERY_KIND_POINT,
+    Ray = ZVO_QUERY_KIND_RAY,
+    Box = ZVO_QUERY_KIND_BOX,
+    Nearest = ZVO_QUERY_KIND_NEAREST,
+    Sweep = ZVO_QUERY_KIND_SWEEP,
+};
+
+enum class QueryState : ZvoQueryState
+{
+    Nothing = ZVO_QUERY_STATE_NOTHING,
+    Found = ZVO_QUERY_STATE_FOUND,
+    Undecided = ZVO_QUERY_STATE_UNDECIDED,
 };
 
 enum class WrapMode : ZvoWrapMode

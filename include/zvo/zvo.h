@@ -50,6 +50,7 @@ typedef struct ZvoDynamicTree ZvoDynamicTree;
 typedef struct ZvoEnvironment ZvoEnvironment;
 typedef struct ZvoTracer ZvoTracer;
 typedef struct ZvoRadianceCache ZvoRadianceCache;
+typedef struct ZvoQueryBatch ZvoQueryBatch;
 
 // Structs without a size, which stay as they are.
 
@@ -680,3 +681,68 @@ ZVO_C_API ZvoResult zvoTracerTraceCachedDynamic(ZvoTracer* tracer, ZvoRecorder* 
                                                 ZvoEnvironment* environment, ZvoRadianceCache* light,
                                                 const ZvoCameraInfo* camera, const ZvoCachedPictureInfo* info,
                                                 const ZvoImageTarget* color);
+
+// zvo::QueryBatch. Its structs have no size, and stay as they are; positions are in lattice units, 256 of which are a
+// voxel.
+
+typedef struct ZvoPointQuery
+{
+    int32_t position[3];
+} ZvoPointQuery;
+
+typedef struct ZvoRayQuery
+{
+    float origin[3];
+    float t_min;
+    float direction[3];
+    float t_max;
+} ZvoRayQuery;
+
+typedef struct ZvoBoxQuery
+{
+    int32_t low[3];
+    int32_t high[3];
+} ZvoBoxQuery;
+
+typedef struct ZvoNearestQuery
+{
+    int32_t position[3];
+    uint32_t reach;
+} ZvoNearestQuery;
+
+typedef struct ZvoSweepQuery
+{
+    int32_t low[3];
+    int32_t high[3];
+    int32_t motion[3];
+} ZvoSweepQuery;
+
+/// As zvo::QueryAnswer.
+typedef struct ZvoQueryAnswer
+{
+    ZvoQueryState state;
+    uint32_t cell[3];
+    uint32_t face;
+    float t;
+    int64_t numerator;
+    int64_t denominator;
+    uint32_t color;
+    float normal[3];
+    float emission[3];
+    uint32_t index;
+} ZvoQueryAnswer;
+
+/// zvo::latticePosition().
+ZVO_C_API ZvoResult zvoLatticePosition(const ZvoGrid* grid, const double world[3], int32_t position[3]);
+
+/// queries: [count] of the struct of that kind; may be null for none.
+ZVO_C_API ZvoResult zvoQueryBatchCreate(ZvoRecorder* recorder, const ZvoTree* tree, ZvoQueryKind kind,
+                                        const void* queries, size_t count, ZvoQueryBatch** batch);
+ZVO_C_API ZvoResult zvoQueryBatchCreateDynamic(ZvoRecorder* recorder, ZvoDynamicTree* tree, ZvoQueryKind kind,
+                                               const void* queries, size_t count, ZvoQueryBatch** batch);
+ZVO_C_API void zvoQueryBatchDestroy(ZvoQueryBatch* batch);
+ZVO_C_API ZvoResult zvoQueryBatchIsDone(const ZvoQueryBatch* batch, VkBool32* done);
+
+/// answers: [count], those to the questions from `first` on.
+ZVO_C_API ZvoResult zvoQueryBatchAnswers(const ZvoQueryBatch* batch, size_t first, size_t count,
+                                         ZvoQueryAnswer* answers);

@@ -11,6 +11,7 @@
 #include "zvo/log.h"
 #include "zvo/memory.h"
 #include "zvo/model.h"
+#include "zvo/query.h"
 #include "zvo/radiance_cache.h"
 #include "zvo/tracer.h"
 #include "zvo/tree.h"

@@ -21,6 +21,15 @@
 // What zvo_Hit says: zvo_isHit(hit), zvo_isUnfinished(hit), hit.t, zvo_hitCell(hit), zvo_hitLevel(hit),
 // zvo_hitFace(hit): the axis, or zvo_kFaceInside.
 //
+// Questions in integers, exact: positions are on the lattice of 256 units a voxel from the grid's corner on. What touches
+// a box is outside of it. Answers are hits, for zvo_isHit() and so on, and zvo_surface():
+//   ivec3 zvo_toLattice(tree, position)                               of a point in world space
+//   zvo_Hit zvo_point(tree, position)                                 the voxel that a point is in
+//   zvo_Hit zvo_box(tree, low, high)                                  a voxel in a box; a miss: it is empty
+//   zvo_Hit zvo_nearest(tree, position, reach)                        the nearest voxel, at most that far away
+//   zvo_Hit zvo_sweep(tree, low, high, motion)                        the first voxel that a moving box meets
+//   uint64_t zvo_squaredDistance(position, hit), ivec2 zvo_sweepTime(low, high, motion, hit)   exact; hit.t is rounded
+//
 // The radiance cache (zvo::RadianceCache), a zvo_RadianceCacheTable_ConstPtr by its address, as trees:
 //   vec4 zvo_irradiance(light, tree, position, normal)                light that arrives at a surface, without a ray
 //   vec4 zvo_cachedRadiance(light, tree, hit, origin, direction)        light that comes from where a ray has hit
@@ -45,7 +54,8 @@
 //                         wrongly.
 //   ZVO_ENTRIES_PER_WORD  zvo_TreeTable::entries_per_word of all trees, likewise; 0 leaves out what only DAGs need.
 //   ZVO_DETAIL            rays may stop at nodes that are small enough: zvo_traceDetail, zvo_traceRayDetail, zvo_cone.
-//   ZVO_ITERATIONS_MAX    iterations of a ray in one call, 40,000 by default: enough for any ray through 8192^3 voxels.
+//   ZVO_ITERATIONS_MAX    iterations of a ray or a question in one call, 40,000 by default: enough for any ray through
+//                         8192^3 voxels.
 //
 // Cost: of a ray, its iterations, which lead far where there is nothing; of a hit in a DAG, two or three loads a level
 // of nodes beside that, which zvo_occluded saves; of zvo_surface, ten loads or so. Nothing here writes, waits or needs
@@ -59,6 +69,7 @@
 #define ZVO_TRACE_GLSL
 
 #include "trace/any_tree.glsl"
+#include "host/queries.glsl"
 #include "host/radiance_cache.glsl"
 
 #endif

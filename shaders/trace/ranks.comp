@@ -38,7 +38,7 @@ void main()
             return;
     }
     Hit hit = loadHit(Hit_ConstPtr(uint64_t(params.hits)), i);
-    if (isMiss(hit))
+    if (hit.index >= kHitUnfinished)
         return;
     uint level = kDetail ? hitLevel(hit) : kNodeLevels;
     uint_Ptr(uint64_t(params.hits)).data[4u * i + 1u] = attributeIndex(

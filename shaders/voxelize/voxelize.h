@@ -4,6 +4,7 @@
 #define ZVO_SHADERS_VOXELIZE_VOXELIZE_H
 
 #include "shared/bricks.h"
+#include "shared/lattice.h"
 #include "shared/octree.h"
 #include "shared/scene.h"
 
@@ -27,8 +28,6 @@ const uint kGroupsXMax = 65535u;   // workgroups along x that every device allow
 const uint kFragmentsMax = 65535u; // fragments of a voxel that 32-bit sums hold
 
 const int kLatticeLimit = 1 << 29; // vertices beyond are dropped
-const int kVoxelLattice = 256;     // lattice units a voxel
-const int kVoxelLatticeLog2 = 8;
 
 // Specialization constant coverage: which voxels a triangle covers.
 const uint kCoverageConservative = 0u;

@@ -19,5 +19,6 @@ ZVO_DESTROYS(zvoDynamicTreeDestroy, ZvoDynamicTree)
 ZVO_DESTROYS(zvoEnvironmentDestroy, ZvoEnvironment)
 ZVO_DESTROYS(zvoTracerDestroy, ZvoTracer)
 ZVO_DESTROYS(zvoRadianceCacheDestroy, ZvoRadianceCache)
+ZVO_DESTROYS(zvoQueryBatchDestroy, ZvoQueryBatch)
 
 #undef ZVO_DESTROYS

@@ -23,6 +23,7 @@ ZVO_HANDLE(ZvoTreeJob, TreeJob);
 ZVO_HANDLE(ZvoEnvironment, Environment);
 ZVO_HANDLE(ZvoTracer, Tracer);
 ZVO_HANDLE(ZvoRadianceCache, RadianceCache);
+ZVO_HANDLE(ZvoQueryBatch, QueryBatch);
 
 #undef ZVO_HANDLE
 

@@ -24,7 +24,7 @@ TEST_F(BenchRun, HelpAndVersionAreData)
     EXPECT_TRUE(run({"--version"}).out.starts_with("zvo-bench "));
     const std::string help = run({"--help"}).out;
     for (const char* command :
-         {"build", "rays", "dynamic", "edit", "path", "cache", "denoise", "baselines", "balance", "tune", "report"})
+         {"build", "rays", "dynamic", "edit", "queries", "path", "cache", "denoise", "baselines", "balance", "tune", "report"})
     {
         EXPECT_TRUE(contains(help, std::string("\n  ") + command + " ")) << command;
         const Outcome outcome = run({command, "--help"});

@@ -11,7 +11,7 @@ namespace zvo
 namespace
 {
 
-constexpr double kReach = 3;  // standard deviations; what is farther away does not count
+constexpr double kBlurReach = 3;  // standard deviations; what is farther away does not count
 constexpr double kTexels = 2; // of a standard deviation, at least
 constexpr std::uint32_t kRowsMin = 16;
 
@@ -46,7 +46,7 @@ HdrImage blurredMap(std::uint32_t width, std::uint32_t height, std::span<const g
     const std::uint32_t columns = std::min(std::max(atLeast(2.0 * std::numbers::pi), 2 * kRowsMin), width);
     const HdrImage map = reduced(width, height, texels, columns, rows);
     HdrImage blurred = {columns, rows, std::vector(map.texels.size(), glm::vec3(0.0F))};
-    const double farthest = std::cos(std::min(kReach * deviation, std::numbers::pi));
+    const double farthest = std::cos(std::min(kBlurReach * deviation, std::numbers::pi));
     std::vector<float> weights(columns); // by the difference of columns
     for (std::uint32_t row = 0; row < rows; ++row)
     {

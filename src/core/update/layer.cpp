@@ -16,7 +16,7 @@ namespace zvo
 namespace
 {
 
-constexpr std::uint64_t kCountMin = 64;
+constexpr std::uint64_t kLayerCountMin = 64;
 constexpr std::uint64_t kCountMax = 1 << 22;
 constexpr std::uint64_t kVoxelsOfLeaf = 24; // of 64: a plane through a leaf sets 16
 
@@ -30,7 +30,7 @@ VoxelForm formOf(Coverage coverage, LayerContents contents)
 LayerCapacities LayerCapacities::estimate(const GpuScene& scene, const Grid& grid, Coverage coverage)
 {
     const VoxelizeEstimate likely = VoxelizeEstimate::of(scene, grid, coverage);
-    const auto count = [](double value) { return clampedCount(value * 1.25, kCountMin, kCountMax); };
+    const auto count = [](double value) { return clampedCount(value * 1.25, kLayerCountMin, kCountMax); };
     LayerCapacities result;
     result.leaves = count(likely.leaves);
     result.voxels = result.leaves * kVoxelsOfLeaf;

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "common/normal.h"
+#include "core/tree/normal.h"
 
 #include "core/tree/attribute_format.h"
 
 #include <cmath>
 
-namespace zvo::cli
+namespace zvo
 {
 
 glm::vec3 decodeNormal(std::uint32_t code)
@@ -26,4 +26,4 @@ glm::vec3 decodeNormal(std::uint32_t code)
     return glm::vec3(glm::normalize(v));
 }
 
-} // namespace zvo::cli
+} // namespace zvo
