@@ -2,8 +2,12 @@
 // The C interface: questions to trees. Its structs are those of C++.
 #include "api/c_convert.h"
 #include "api/c_handles.h"
+#include "api/checked.h"
 
+#include <algorithm>
 #include <cstddef>
+#include <span>
+#include <string>
 
 namespace zvo
 {
@@ -30,9 +34,9 @@ template <typename Query> QueryList listOf(const void* queries, std::size_t coun
 
 QueryList listOf(ZvoQueryKind kind, const void* queries, std::size_t count)
 {
-    if (count != 0)
+    if (count != 0 && queries == nullptr)
     {
-        at(queries, "queries");
+        throw Error(ErrorCode::Usage, "queries is null");
     }
     switch (checkedEnum(static_cast<QueryKind>(kind), QueryKind::Sweep, "kind"))
     {
