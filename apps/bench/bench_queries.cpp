@@ -223,7 +223,8 @@ std::string tableText(const vk::DeviceReport& device, const BenchQueriesOptions&
     return text;
 }
 
-Json queriesJson(const vk::DeviceReport& device, const BenchQueriesOptions& options, const std::vector<QueriesRow>& rows)
+Json queriesJson(const vk::DeviceReport& device, const BenchQueriesOptions& options,
+                 const std::vector<QueriesRow>& rows)
 {
     Json json = headJson("zvo.bench_queries/1", device);
     json["runs"] = options.run_count;

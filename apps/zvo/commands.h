@@ -138,7 +138,7 @@ struct QueryOptions
 {
     std::filesystem::path file;
     std::optional<QueryKind> kind;
-    std::filesystem::path questions; // "-": standard input
+    std::filesystem::path questions;   // "-": standard input
     std::optional<QueryFormat> format; // of questions and answers; not given: as the extensions say
     OutputOptions output;
     DeviceOptions device;

@@ -68,36 +68,39 @@ public:
     {
         const Grid& grid = m_tree.grid;
         const std::size_t of_one = numbersOf(kind);
-        const auto at = [&](std::span<const double> one, std::size_t first)
-        { return latticePosition(grid, {one[first], one[first + 1], one[first + 2]}); };
+        const auto at = [&](std::span<const double> one, std::size_t first) {
+            return latticePosition(grid, {one[first], one[first + 1], one[first + 2]});
+        };
         switch (kind)
         {
         case QueryKind::Point:
-            return answersOf(
-                made<PointQuery>(numbers, of_one, [&](auto one) { return PointQuery{at(one, 0)}; }));
+            return answersOf(made<PointQuery>(numbers, of_one, [&](auto one) { return PointQuery{at(one, 0)}; }));
         case QueryKind::Ray:
             return answersOf(made<RayQuery>(numbers, of_one,
                                             [&](auto one)
                                             {
                                                 return RayQuery{floatsFrom(one), static_cast<float>(one[6]),
-                                                                floatsFrom(one.subspan(3)),
-                                                                static_cast<float>(one[7])};
+                                                                floatsFrom(one.subspan(3)), static_cast<float>(one[7])};
                                             }));
         case QueryKind::Box:
-            return answersOf(made<BoxQuery>(numbers, of_one, [&](auto one) { return BoxQuery{at(one, 0), at(one, 3)}; }));
+            return answersOf(made<BoxQuery>(numbers, of_one,
+                                            [&](auto one) {
+                                                return BoxQuery{at(one, 0), at(one, 3)};
+                                            }));
         case QueryKind::Nearest:
-            return answersOf(made<NearestQuery>(numbers, of_one, [&](auto one)
-                                                { return NearestQuery{at(one, 0), reachIn(grid, one[3])}; }));
+            return answersOf(made<NearestQuery>(numbers, of_one,
+                                                [&](auto one) {
+                                                    return NearestQuery{at(one, 0), reachIn(grid, one[3])};
+                                                }));
         case QueryKind::Sweep:
             break;
         }
-        return answersOf(made<SweepQuery>(
-            numbers, of_one,
-            [&](auto one)
-            {
-                return SweepQuery{at(one, 0), at(one, 3),
-                                  motionFrom(grid, {one[0], one[1], one[2]}, {one[6], one[7], one[8]})};
-            }));
+        return answersOf(made<SweepQuery>(numbers, of_one,
+                                          [&](auto one) {
+                                              return SweepQuery{
+                                                  at(one, 0), at(one, 3),
+                                                  motionFrom(grid, {one[0], one[1], one[2]}, {one[6], one[7], one[8]})};
+                                          }));
     }
 
 private:
@@ -139,7 +142,8 @@ void query(const QueryOptions& options)
     progress.begin("loading");
     const std::shared_ptr<vk::HeadlessDevice> device = openDevice(options.device);
     const DeviceTree tree =
-        uploadTree(*device, loadTree(options.file, [&]() -> vk::HeadlessDevice& { return *device; }, false));
+        uploadTree(*device, loadTree(
+                                options.file, [&]() -> vk::HeadlessDevice& { return *device; }, false));
     progress.begin("asking");
     output.write(queryHeader(to));
     Asker asker(*device, tree);

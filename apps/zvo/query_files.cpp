@@ -144,8 +144,8 @@ std::vector<double> readBinary(const std::filesystem::path& path, std::string_vi
     {
         if (!isAllowed(kind, std::span(all).subspan(first, shape.most)))
         {
-            throw inputError(path, fmt::format("record {}: expected {}, as finite numbers", first / shape.most + 1,
-                                               shape.names));
+            throw inputError(
+                path, fmt::format("record {}: expected {}, as finite numbers", first / shape.most + 1, shape.names));
         }
     }
     return all;
@@ -160,8 +160,8 @@ std::string csvLine(const QueryAnswer& answer, bool has_attributes)
     {
         return line + ",,,,,,,,,,,,,,,,\n";
     }
-    line += fmt::format(",{},{},{},{},{},{},{}", answer.cell[0], answer.cell[1], answer.cell[2],
-                        kFaces.at(answer.face), answer.t, answer.numerator, answer.denominator);
+    line += fmt::format(",{},{},{},{},{},{},{}", answer.cell[0], answer.cell[1], answer.cell[2], kFaces.at(answer.face),
+                        answer.t, answer.numerator, answer.denominator);
     if (!has_attributes)
     {
         return line + ",,,,,,,,,\n";

@@ -314,8 +314,9 @@ void addOptions(CLI::App& query, QueryOptions& options)
             return oneOf(option, text, {"csv", "bin"}) == "bin" ? QueryFormat::Binary : QueryFormat::Csv;
         },
         "csv|bin", "of questions and answers (default: csv, and bin for files that end in .bin)");
-    addText(query, "-o,--output", options.output.path, "FILE", "the answers, in the order of the questions; - is "
-                                                               "standard output")
+    addText(query, "-o,--output", options.output.path, "FILE",
+            "the answers, in the order of the questions; - is "
+            "standard output")
         ->required()
         ->group("Output");
     query.add_flag("-f,--force", options.output.overwrite, "overwrite a file that exists")->group("Output");

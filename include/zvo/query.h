@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Questions to a tree, in lists of one kind (docs/queries.md).
 //
-// Positions are integers, on the lattice of 256 units a voxel from the grid's minimum corner on: latticePosition() gives
-// them. Voxel c is the cube from 256 * c to 256 * (c + 1). Numbers beyond 2^27 lattice units, which is 2^19 voxels, and
-// boxes whose high corner is not above the low one on each axis find nothing. Of equals, the first voxel in Morton order
-// is the answer.
+// Positions are integers, on the lattice of 256 units a voxel from the grid's minimum corner on: latticePosition()
+// gives them. Voxel c is the cube from 256 * c to 256 * (c + 1). Numbers beyond 2^27 lattice units, which is 2^19
+// voxels, and boxes whose high corner is not above the low one on each axis find nothing. Of equals, the first voxel in
+// Morton order is the answer.
 #pragma once
 
 #include "zvo/context.h"
@@ -103,9 +103,9 @@ class ZVO_API QueryBatch
 public:
     /// Records the passes that ask queries of a tree, as the recording shows it, and the copy of the answers. queries
     /// are not needed after the call; at most 2^24, and none is allowed. Memory: of each question 28 bytes, and its own
-    /// size twice, on the device; once more each until the frame is done. First stages: ALL_TRANSFER, COMPUTE_SHADER and
-    /// DRAW_INDIRECT; last stage: COPY, on resources of zvo. Cost: of a point, a load a level of nodes; of others, their
-    /// iterations.
+    /// size twice, on the device; once more each until the frame is done. First stages: ALL_TRANSFER, COMPUTE_SHADER
+    /// and DRAW_INDIRECT; last stage: COPY, on resources of zvo. Cost: of a point, a load a level of nodes; of others,
+    /// their iterations.
     ///
     /// Throws Error{Usage} for more queries, and as Tracer::trace() for trees; Error{Memory}, and what making a kernel
     /// throws; then there is no batch.

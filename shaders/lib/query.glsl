@@ -224,7 +224,8 @@ Traversal walk(uint kind, ivec3 low, ivec3 high, ivec3 motion, CellRange range, 
         uint c = is_any ? firstCell(mask) ^ flip : 0u;
         ivec3 cell = corner + (ivec3(cellNumbered(c)) << int(shift));
         bool is_upper = c >= 32u;
-        uint child = (is_upper ? words.w : words.y) + bitCount((is_upper ? words.z : words.x) & ((1u << (c & 31u)) - 1u));
+        uint below = (1u << (c & 31u)) - 1u;
+        uint child = (is_upper ? words.w : words.y) + bitCount((is_upper ? words.z : words.x) & below);
         bool in_leaf = shift == 0u; // where a child means nothing
         if (kEntriesPerWord != 0u)
         {

@@ -41,7 +41,7 @@ GPU_KERNEL(query, find, Find, FindParams, QUERY_FIND_CONSTANTS)
 struct QueryLook
 {
     Attribute stored; // in 8 bytes, whatever the tree's format
-    uint emission;       // radiance / emission_scale as RGB9E5
+    uint emission;    // radiance / emission_scale as RGB9E5
 };
 GPU_BUFFER(QueryLook, 4);
 

@@ -7,7 +7,7 @@
 
 GPU_NAMESPACE_BEGIN
 
-const int kQueryReach = 1 << 27;   // lattice units: positions are at most so far from the grid's corner, motions so long
+const int kQueryReach = 1 << 27; // lattice units: positions are at most so far from the grid's corner, motions so long
 const int kNearestReach = 1 << 29; // likewise: no distance is larger
 
 GPU_NAMESPACE_END

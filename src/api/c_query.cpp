@@ -76,14 +76,15 @@ using namespace zvo;
 
 ZvoResult zvoLatticePosition(const ZvoGrid* grid, const double world[3], int32_t position[3])
 {
-    return guarded(__func__,
-                   [&]
-                   {
-                       const double* const from = &at(world, "world");
-                       int32_t* const to = &at(position, "position");
-                       const LatticePosition result = latticePosition(ofC(at(grid, "grid")), {from[0], from[1], from[2]});
-                       std::copy(result.begin(), result.end(), to);
-                   });
+    return guarded(
+        __func__,
+        [&]
+        {
+            const double* const from = &at(world, "world");
+            int32_t* const to = &at(position, "position");
+            const LatticePosition result = latticePosition(ofC(at(grid, "grid")), {from[0], from[1], from[2]});
+            std::copy(result.begin(), result.end(), to);
+        });
 }
 
 ZvoResult zvoQueryBatchCreate(ZvoRecorder* recorder, const ZvoTree* tree, ZvoQueryKind kind, const void* queries,

@@ -33,8 +33,8 @@ std::unique_ptr<QueryBatch::Impl> ask(Recorder& recorder, AnyTree& any_tree, con
 {
     requireAtMost(sizeOf(queries), kQueriesMax, "queries");
     const DeviceTree& tree = shownIn(recorder.impl(), any_tree).tree;
-    return recording(recorder, [&](Recorder::Impl& impl)
-                     { return std::make_unique<QueryBatch::Impl>(impl, tree, queries); });
+    return recording(recorder,
+                     [&](Recorder::Impl& impl) { return std::make_unique<QueryBatch::Impl>(impl, tree, queries); });
 }
 
 } // namespace

@@ -160,7 +160,12 @@ TEST(CStructs, PointersThatAreNullAreRefused)
         {
             ASSERT_EQ(zvoDynamicTreeCreate(recorder, taken, &dynamic_info, &handle<ZvoDynamicTree>()), ZVO_OK);
             ASSERT_EQ(zvoEnvironmentCreate(recorder, nullptr, &handle<ZvoEnvironment>()), ZVO_OK);
+            ASSERT_EQ(zvoQueryBatchCreateDynamic(recorder, handle<ZvoDynamicTree>(), ZVO_QUERY_KIND_POINT, nullptr, 0,
+                                                 &handle<ZvoQueryBatch>()),
+                      ZVO_OK);
         });
+    ZvoQueryAnswer answer{};
+    handle<ZvoQueryAnswer>() = &answer;
     std::size_t pointers = 0;
 #define REFUSES_NULLS(function, ...) pointers += refusesNulls(&function, #function __VA_OPT__(, ) __VA_ARGS__)
     REFUSES_NULLS(zvoQuery);
@@ -203,6 +208,9 @@ TEST(CStructs, PointersThatAreNullAreRefused)
     REFUSES_NULLS(zvoRadianceCacheForget);
     REFUSES_NULLS(zvoRadianceCacheStats);
     REFUSES_NULLS(zvoRadianceCacheBytes);
+    REFUSES_NULLS(zvoLatticePosition);
+    REFUSES_NULLS(zvoQueryBatchIsDone);
+    REFUSES_NULLS(zvoQueryBatchAnswers);
     REFUSES_NULLS(zvoCameraLookAt);
     REFUSES_NULLS(zvoCameraRays);
     host.frame(
@@ -230,6 +238,8 @@ TEST(CStructs, PointersThatAreNullAreRefused)
             REFUSES_NULLS(zvoTracerTraceCachedDynamic);
             REFUSES_NULLS(zvoRadianceCacheUpdate);
             REFUSES_NULLS(zvoRadianceCacheUpdateDynamic);
+            REFUSES_NULLS(zvoQueryBatchCreate);
+            REFUSES_NULLS(zvoQueryBatchCreateDynamic);
             REFUSES_NULLS(zvoEnvironmentCreate, 1);
         });
 #undef REFUSES_NULLS
@@ -239,12 +249,14 @@ TEST(CStructs, PointersThatAreNullAreRefused)
           static_cast<const void*>(*given<ZvoRecorder**>()), static_cast<const void*>(*given<ZvoModel**>()),
           static_cast<const void*>(*given<ZvoTree**>()), static_cast<const void*>(*given<ZvoTreeJob**>()),
           static_cast<const void*>(*given<ZvoDynamicTree**>()), static_cast<const void*>(*given<ZvoEnvironment**>()),
-          static_cast<const void*>(*given<ZvoTracer**>()), static_cast<const void*>(*given<ZvoRadianceCache**>())})
+          static_cast<const void*>(*given<ZvoTracer**>()), static_cast<const void*>(*given<ZvoRadianceCache**>()),
+          static_cast<const void*>(*given<ZvoQueryBatch**>())})
     {
         EXPECT_EQ(made, nullptr); // a failure leaves its results unchanged
     }
     zvoTracerDestroy(handle<ZvoTracer>());
     zvoRadianceCacheDestroy(handle<ZvoRadianceCache>());
+    zvoQueryBatchDestroy(handle<ZvoQueryBatch>());
     zvoEnvironmentDestroy(handle<ZvoEnvironment>());
     zvoDynamicTreeDestroy(handle<ZvoDynamicTree>());
     zvoTreeJobDestroy(handle<ZvoTreeJob>());

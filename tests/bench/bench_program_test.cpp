@@ -23,8 +23,8 @@ TEST_F(BenchRun, HelpAndVersionAreData)
 {
     EXPECT_TRUE(run({"--version"}).out.starts_with("zvo-bench "));
     const std::string help = run({"--help"}).out;
-    for (const char* command :
-         {"build", "rays", "dynamic", "edit", "queries", "path", "cache", "denoise", "baselines", "balance", "tune", "report"})
+    for (const char* command : {"build", "rays", "dynamic", "edit", "queries", "path", "cache", "denoise", "baselines",
+                                "balance", "tune", "report"})
     {
         EXPECT_TRUE(contains(help, std::string("\n  ") + command + " ")) << command;
         const Outcome outcome = run({command, "--help"});
@@ -274,6 +274,24 @@ TEST_F(BenchRun, BalanceNeedsNoAttributesAndNoFiles)
     EXPECT_EQ(report["ratios"].size(), 6U);
     EXPECT_TRUE(report["rows"][0]["attributes_ms"].is_null());
     EXPECT_TRUE(report["ratios"][0]["attributes"].is_null());
+}
+
+TEST_F(BenchRun, QueriesTellsOctreeAndDagByKind)
+{
+    const Outcome outcome =
+        run({"queries", "cube.glb", "--resolutions", "32", "--runs", "1", "--count", "100", "--json", "queries.json"});
+    EXPECT_TRUE(contains(outcome.out, "\n| cube "));
+    const json report = json::parse(file("queries.json"));
+    EXPECT_EQ(report["schema"], "zvo.bench_queries/1");
+    ASSERT_EQ(report["rows"].size(), 6U);
+    for (const json& row : report["rows"])
+    {
+        expectFields(row, {"scene string", "question string", "found number"});
+        EXPECT_GT(row["octree_mqueries_per_s"], 0);
+        EXPECT_GT(row["dag_mqueries_per_s"], 0);
+    }
+    EXPECT_EQ(report["rows"][3]["question"], "nearest");
+    EXPECT_EQ(report["rows"][3]["found"], 100);
 }
 
 TEST_F(BenchRun, EditTellsStrokesByRadiusActionAndNumber)

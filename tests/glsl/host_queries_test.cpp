@@ -47,8 +47,7 @@ struct QueriesPush
 std::vector<Found> askHost(const DeviceTree& tree, const std::vector<Question>& questions)
 {
     const vk::BufferOf<gpu::TreeTable> table = test::tableOf(tree);
-    const vk::BufferOf<Question> list =
-        deviceOfHosts().makeBuffer("questions", std::span<const Question>(questions));
+    const vk::BufferOf<Question> list = deviceOfHosts().makeBuffer("questions", std::span<const Question>(questions));
     vk::BufferOf<Found> found(deviceOfHosts().device(), "found", questions.size());
     deviceOfHosts().run(
         [&](vk::FrameGraph& graph)

@@ -33,6 +33,7 @@ namespace zvo
 namespace
 {
 
+using test::askQuestions;
 using test::device;
 using test::keepLight;
 using test::noteKernels;
@@ -295,6 +296,8 @@ TEST(EveryKernel, RunsOnASmallScene)
             const DeviceTree dag = test::svdagOf(device(), built.octree);
             tracePictures(dag);
             keepLight(dag);
+            askQuestions(built.octree);
+            askQuestions(dag);
             const Grid deep{.origin = grid.origin, .voxel_size = grid.voxel_size, .depth = kDepthOfRankSums};
             mergeObjects(scene, deep, c.coverage, true);
             tracePictures(test::svdagOf(device(), buildOctree(device(), gpu_scene, deep, {c.coverage}).octree));

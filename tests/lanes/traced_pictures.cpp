@@ -5,6 +5,7 @@
 #include "core/frame/frame_renderer.h"
 #include "core/path/path_tracer.h"
 #include "core/present/present.h"
+#include "core/query/query_list.h"
 #include "core/trace/trace.h"
 #include "core/trace/trace_depth.h"
 #include "core/trace/trace_loads.h"
@@ -68,6 +69,21 @@ void tracePictures(const DeviceTree& tree)
     for (std::uint32_t sample = 0; sample < 2; ++sample)
     {
         run([&](vk::FrameGraph& graph) { samples.addSample(graph, {tree, camera}, {.antialias = true}); });
+    }
+}
+
+void askQuestions(const DeviceTree& tree)
+{
+    const std::vector<PointQuery> points = {{{500, 600, 700}}, {{-1, 0, 0}}};
+    const std::vector<RayQuery> rays(1);
+    const std::vector<BoxQuery> boxes = {{{0, 0, 0}, {5000, 6000, 7000}}};
+    const std::vector<NearestQuery> nearest = {{{500, 600, 700}}, {{-900, 0, 0}, 3}};
+    const std::vector<SweepQuery> sweeps = {{{0, 0, 0}, {300, 300, 300}, {9000, 8000, 7000}}};
+    for (const QueryList& list :
+         {QueryList(points), QueryList(rays), QueryList(boxes), QueryList(nearest), QueryList(sweeps)})
+    {
+        QueryBuffers buffers(device(), list, tree.grid);
+        run([&](vk::FrameGraph& graph) { answerQueries(graph, tree, buffers); });
     }
 }
 

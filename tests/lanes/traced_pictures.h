@@ -24,6 +24,9 @@ void tracePacked(BuildResult built, AttributeFormat format);
 /// Traces pictures in the texel formats of hosts' images, lit and unlit, with depth.
 void traceForHosts(const DeviceTree& tree);
 
+/// Asks a tree with attributes of all kinds of questions.
+void askQuestions(const DeviceTree& tree);
+
 /// Scales a picture of 3 x 2 pixels to twice and to a third of its width.
 void scalePictures();
 

@@ -56,7 +56,7 @@ TEST(QueryOracle, ABoxMeetsWhatItWouldEnter)
     EXPECT_FALSE(voxels.onWay(low, high, {56, 0, 0})); // touches it at the end
     EXPECT_EQ(voxels.onWay(low, high, {57, 0, 0}), (QueryAnswer{{1, 0, 0}, 0, 56, 57}));
     EXPECT_EQ(voxels.onWay({56, 0, 0}, {256, 200, 200}, {1, 0, 0}), (QueryAnswer{{1, 0, 0}, 0, 0, 1})); // touches it
-    EXPECT_FALSE(voxels.onWay({56, 0, 0}, {256, 200, 200}, {0, 0, 500}));                              // slides along
+    EXPECT_FALSE(voxels.onWay({56, 0, 0}, {256, 200, 200}, {0, 0, 500}));                               // slides along
     EXPECT_EQ(voxels.onWay({57, 0, 0}, {257, 200, 200}, {-500, 0, 0}), (QueryAnswer{{1, 0, 0}, 3, 0, 1}));
     EXPECT_EQ(voxels.onWay({57, 0, 0}, {257, 200, 200}, {0, 0, 0}), (QueryAnswer{{1, 0, 0}, 3, 0, 1}));
     // Over a corner that it passes exactly: it never shares a point with the inside.

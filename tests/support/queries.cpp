@@ -72,9 +72,9 @@ public:
         for (std::size_t axis = 0; axis < 3; ++axis)
         {
             const int along = number(-most, most);
-            result.at(axis) = kind == 0 ? (number(0, 2) == 0 ? along : 0)        // along axes
-                              : kind == 1 ? (along & ~(kLatticeVoxel - 1))       // by whole voxels
-                              : kind == 2 ? (along < 0 ? -most : most)           // along diagonals
+            result.at(axis) = kind == 0   ? (number(0, 2) == 0 ? along : 0) // along axes
+                              : kind == 1 ? (along & ~(kLatticeVoxel - 1))  // by whole voxels
+                              : kind == 2 ? (along < 0 ? -most : most)      // along diagonals
                                           : along;
         }
         return result;
@@ -208,10 +208,10 @@ Queries pickQueries(std::mt19937& random, const Grid& grid, const Codes& codes, 
         queries.rays.push_back(picker.ray());
         const LatticePosition low = picker.position();
         queries.boxes.push_back({low, picker.high(low)});
-        queries.nearest.push_back(
-            {picker.position(), picker.number(0, 2) == 0
-                                    ? UINT32_MAX
-                                    : static_cast<std::uint32_t>(picker.number(0, kLatticeVoxel << picker.number(0, 5)))});
+        queries.nearest.push_back({picker.position(), picker.number(0, 2) == 0
+                                                          ? UINT32_MAX
+                                                          : static_cast<std::uint32_t>(picker.number(
+                                                                0, kLatticeVoxel << picker.number(0, 5)))});
         const LatticePosition from = picker.position();
         queries.sweeps.push_back({from, picker.high(from), picker.motion()});
     }

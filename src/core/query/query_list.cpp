@@ -31,8 +31,8 @@ std::span<const gpu::uint> numbersOf(const QueryList& queries)
         queries);
 }
 
-// A ray in the unit space of a grid (shaders/shared/trace.h), whose small components of the direction are replaced as by
-// lib/ray.glsl.
+// A ray in the unit space of a grid (shaders/shared/trace.h), whose small components of the direction are replaced as
+// by lib/ray.glsl.
 gpu::Ray unitRay(const Grid& grid, const RayQuery& query)
 {
     constexpr float kDirectionMin = 1e-20F;
@@ -116,8 +116,8 @@ void measure(const QueriedTree& /*tree*/, const SweepQuery& query, QueryAnswer& 
     {
         const std::int64_t low = std::int64_t{answer.cell.at(answer.face)} * kLatticeVoxel;
         const std::int64_t motion = query.motion.at(answer.face);
-        answer.numerator = motion < 0 ? query.low.at(answer.face) - (low + kLatticeVoxel)
-                                      : low - query.high.at(answer.face);
+        answer.numerator =
+            motion < 0 ? query.low.at(answer.face) - (low + kLatticeVoxel) : low - query.high.at(answer.face);
         answer.denominator = std::abs(motion);
     }
     answer.t = static_cast<float>(static_cast<double>(answer.numerator) / static_cast<double>(answer.denominator));

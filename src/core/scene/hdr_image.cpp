@@ -11,8 +11,8 @@ namespace zvo
 namespace
 {
 
-constexpr double kBlurReach = 3;  // standard deviations; what is farther away does not count
-constexpr double kTexels = 2; // of a standard deviation, at least
+constexpr double kBlurReach = 3; // standard deviations; what is farther away does not count
+constexpr double kTexels = 2;    // of a standard deviation, at least
 constexpr std::uint32_t kRowsMin = 16;
 
 // A map of another size, each of whose texels is the mean of those whose middles it contains.

@@ -123,8 +123,10 @@ TEST(Query, OverlaysAreAskedAsTheStaticTree)
         dynamic.add(uploadDynamicMesh(device(), box, true, 1.0F),
                     {{glm::translate(glm::mat4(1.0F), glm::vec3(13.1F, 20.2F, 9.9F))}, {}, {}});
         test::updateAll(device(), dynamic);
-        test::runFrame(device(), dynamic, [&](vk::FrameGraph& graph)
-                       { dynamic.edit(graph, {.action = BrushAction::Fill, .center = {40, 40, 40}, .radius = 5}); });
+        test::runFrame(device(), dynamic,
+                       [&](vk::FrameGraph& graph) {
+                           dynamic.edit(graph, {.action = BrushAction::Fill, .center = {40, 40, 40}, .radius = 5});
+                       });
         test::updateAll(device(), dynamic);
         const DeviceTree& tree = dynamic.tree();
         const std::vector<test::Cell> cells = test::cellsOf(device(), tree);
