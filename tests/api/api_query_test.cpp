@@ -63,7 +63,8 @@ TEST(ApiQuery, AnswersAreThoseOfTheEngine)
     const std::vector<QueryAnswer> expected = test::askDevice(test::device(), octree, std::span(queries.nearest));
     EXPECT_TRUE(areSame(ask(host, tree, std::span(queries.nearest)), expected));
     EXPECT_TRUE(ask(host, tree, std::span<const PointQuery>()).empty());
-    auto dynamic = host.make<DynamicTree>(std::move(tree), DynamicTreeInfo{});
+    const DynamicTreeInfo info = {.emission_scale = tree.info().emission_scale};
+    auto dynamic = host.make<DynamicTree>(std::move(tree), info);
     host.edit(dynamic, {.action = BrushAction::Fill, .center = {2, 30, 2}, .radius = 0, .color = 0x123456});
     host.update(dynamic);
     const std::vector<NearestQuery> near = {{{2 * 256 + 7, 30 * 256 + 9, 2 * 256 - 5}}};

@@ -26,7 +26,7 @@ struct Question
     gpu::uint reach;
 };
 
-struct Found
+struct FoundVoxels
 {
     std::array<gpu::Hit, 4> hits;
     std::int64_t squared_distance;
@@ -39,16 +39,16 @@ struct QueriesPush
 {
     gpu::ConstPtr<gpu::TreeTable> tree;
     gpu::ConstPtr<Question> questions;
-    gpu::Ptr<Found> answers;
+    gpu::Ptr<FoundVoxels> answers;
     gpu::uint count;
     gpu::uint padding = 0;
 };
 
-std::vector<Found> askHost(const DeviceTree& tree, const std::vector<Question>& questions)
+std::vector<FoundVoxels> askHost(const DeviceTree& tree, const std::vector<Question>& questions)
 {
     const vk::BufferOf<gpu::TreeTable> table = test::tableOf(tree);
     const vk::BufferOf<Question> list = deviceOfHosts().makeBuffer("questions", std::span<const Question>(questions));
-    vk::BufferOf<Found> found(deviceOfHosts().device(), "found", questions.size());
+    vk::BufferOf<FoundVoxels> found(deviceOfHosts().device(), "found", questions.size());
     deviceOfHosts().run(
         [&](vk::FrameGraph& graph)
         {
@@ -89,7 +89,7 @@ void expectSameAnswers(const DeviceTree& tree, const test::Codes& codes, std::ui
         asked.nearest.push_back({sweep.low, queries.nearest[i].reach});
         asked.sweeps.push_back(sweep);
     }
-    const std::vector<Found> found = askHost(tree, questions);
+    const std::vector<FoundVoxels> found = askHost(tree, questions);
     constexpr std::array kKinds = {QueryKind::Point, QueryKind::Box, QueryKind::Nearest, QueryKind::Sweep};
     for (std::size_t kind = 0; kind < kKinds.size(); ++kind)
     {
@@ -129,7 +129,7 @@ TEST(HostGlsl, PointsInWorldSpaceHaveTheLatticePositionBelow)
     {
         questions.push_back({{at, 2 * at, -at}, {at, at, at}, {0, 0, 0}, 1});
     }
-    const std::vector<Found> found = askHost(octree, questions);
+    const std::vector<FoundVoxels> found = askHost(octree, questions);
     for (std::size_t i = 0; i < found.size(); ++i)
     {
         const LatticePosition& low = questions[i].low;
