@@ -59,10 +59,10 @@ uvec2 loadLeafGroup(uint i)
     return texelFetch(texels2_leaf_groups, int(i)).xy;
 }
 
-// A node, or two leaf words.
+// A node, or two leaf words. pair: the number of two words, or the reference of a node.
 uvec4 loadPair(uint pair)
 {
-    return texelFetch(texels4_nodes, int(pair));
+    return texelFetch(texels4_nodes, int(pair & ~kFullNodes));
 }
 #else
 uvec2 loadLeafGroup(uint i)

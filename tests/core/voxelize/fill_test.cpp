@@ -9,6 +9,7 @@
 #include "runtime/octree_sha256.h"
 #include "runtime/trees.h"
 #include "support/engine_device.h"
+#include "support/queries.h"
 #include "support/same_bytes.h"
 #include "support/scenes.h"
 #include "support/trace_rays.h"
@@ -201,6 +202,20 @@ TEST(Fill, IsHitByRaysAsTheSameVoxelsWithoutFullNodes)
     }
     EXPECT_GT(counts[0], 100U);
     EXPECT_GT(counts[1], 100U);
+}
+
+TEST(Fill, AnswersQuestionsAsItsVoxels)
+{
+    const FilledBall ball = filledBall();
+    std::mt19937 random(4);
+    const test::Queries queries = test::pickQueries(random, ball.grid, ball.cells, 300);
+    for (const QueryKind kind : test::kQueryKinds)
+    {
+        std::uint64_t found = 0;
+        const std::vector<QueryAnswer> answers = test::askDevice(device(), ball.built.octree, queries.list(kind));
+        EXPECT_EQ(test::queryDifference(ball.grid, ball.cells, queries.list(kind), answers, &found), "");
+        EXPECT_GT(found, 30U);
+    }
 }
 
 TEST(Fill, IsKeptInFiles)
