@@ -21,7 +21,7 @@ void main()
     QueryLook look = QueryLook(Attribute(0u, 0u), 0u);
     if (voxel < kHitUnfinished)
     {
-        look.stored = readAttribute(kFormat, true, params.attributes, params.attributes, voxel);
+        look.stored = readAttribute(kFormat, true, params.attributes, params.nodes, voxel);
         if (uint64_t(params.emission_words) != 0ul && isEmissive(params.emission_words, voxel))
             look.emission = params.emission.data[emissionIndex(params.emission_words, voxel)];
     }

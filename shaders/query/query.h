@@ -49,6 +49,7 @@ struct LookParams // push constants of query/look
 {
     GPU_CONST_PTR(Hit) hits;             // [hit_count]
     GPU_CONST_PTR(Attribute) attributes; // of voxels, in the format of kFormat
+    GPU_CONST_PTR(Attribute) nodes;      // of the nodes: what is inside has the root's
     GPU_CONST_PTR(uvec2) emission_words; // or null
     GPU_CONST_PTR(uint) emission;
     GPU_PTR(QueryLook) looks; // [hit_count]

@@ -103,7 +103,8 @@ TEST_F(CliRun, FillsWhatIsClosedInAllOfItsFiles)
     run("convert full.zvo -o full.ply");
     EXPECT_NE(file("full.ply").find(fmt::format("element vertex {}\n", kCells)), std::string::npos);
     run("render full.zvo -o a.png --size 64x48");
-    run("render cube.glb --resolution 16 -o b.png --size 64x48");
+    run("build cube.glb --resolution 16 --structure svo -o shell.zvo");
+    run("render shell.zvo -o b.png --size 64x48");
     EXPECT_EQ(file("a.png"), file("b.png"));
     expectError("build cube.glb --resolution 16 --fill solid --structure svdag -o a.zvo", 2, {"--structure svo"});
     expectError("voxelize cube.glb --resolution 4 --fill solid -o a.morton", 2, {"resolution of 8"});

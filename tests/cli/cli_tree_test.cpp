@@ -50,10 +50,10 @@ TEST_F(CliTree, InspectTellsExactlyTheseFields)
         {
             fields.push_back(field);
         }
-        EXPECT_EQ(fields,
-                  (std::vector<std::string>{"attribute_bytes", "geometry_bytes", "geometry_bytes_per_voxel", "grid",
-                                            "nodes", "nodes_per_level", "rank_bytes", "schema", "sha256",
-                                            "slides_dag_bytes", "slides_octree_bytes", "structure", "voxels"}));
+        EXPECT_EQ(fields, (std::vector<std::string>{"attribute_bytes", "geometry_bytes", "geometry_bytes_per_voxel",
+                                                    "grid", "interior_voxels", "nodes", "nodes_per_level", "rank_bytes",
+                                                    "schema", "sha256", "slides_dag_bytes", "slides_octree_bytes",
+                                                    "structure", "voxels"}));
         EXPECT_EQ(report["schema"], "zvo.inspect/1");
         EXPECT_EQ(report["structure"], structure);
         EXPECT_EQ(report["grid"], voxelized["grid"]);

@@ -13,6 +13,7 @@
 #include "octree/octree.h"
 #include "path/path.h"
 #include "present/present.h"
+#include "query/query.h"
 #include "radiance/cached_faces.h"
 #include "radiance/radiance.h"
 #include "shared/tree_table.h"

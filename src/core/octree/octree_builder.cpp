@@ -175,7 +175,8 @@ void OctreeBuilder::allocateNodes(const gpu::BinCounters& bins, const gpu::Brick
     for (std::uint32_t height = 0; height + 1 < level_count; ++height)
     {
         inner_count += nodes.full_nodes[height];
-        octree.interior_count += std::uint64_t{nodes.full_nodes[height]} << (12 + 6 * height);
+        octree.interior_count += std::uint64_t{nodes.full_nodes[height]}
+                                 << (kCellBits * (height + 2)); // a brick: 2 levels
     }
     requireIndexable(inner_count + bins.leaf_count, m_form.attributes ? bins.voxel_count : 0);
     octree.node_count = inner_count + bins.leaf_count;

@@ -76,6 +76,9 @@ void lookAll(vk::FrameGraph& graph, const DeviceTree& tree, QueryBuffers& buffer
     params.attributes = isPacked(tree.attributeFormat())
                             ? gpu::ConstPtr<gpu::Attribute>{pass.read(tree.packed.voxels).address}
                             : pass.read(tree.voxel_attributes);
+    params.nodes = isPacked(tree.attributeFormat())
+                       ? gpu::ConstPtr<gpu::Attribute>{pass.read(tree.packed.nodes).address}
+                       : pass.read(tree.node_attributes);
     params.emission_words = pass.read(tree.emission_words);
     params.emission = pass.read(tree.emission);
     params.looks = pass.write(buffers.looks);

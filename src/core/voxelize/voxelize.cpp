@@ -186,6 +186,9 @@ void coverItems(vk::FrameGraph& graph, const VoxelizeJob& job, bool known, gpu::
                                                        .emits = buffers.form.emission,
                                                        .fill_planes = buffers.fill_planes});
     readColorTables(pass, job.scene.uploaded());
+    const gpu::Ptr<gpu::BinCounters> counters = buffers.fill_planes != 0
+                                                    ? pass.accumulate(buffers.counters)
+                                                    : gpu::Ptr<gpu::BinCounters>{pass.read(buffers.counters).address};
     pass.dispatchIndirect(buffers.counters, args,
                           {.scene = job.scene.read(pass),
                            .setups = pass.read(buffers.setups),
@@ -195,7 +198,7 @@ void coverItems(vk::FrameGraph& graph, const VoxelizeJob& job, bool known, gpu::
                            .voxels = pass.accumulate(buffers.voxels), // a thread its own
                            .masks = pass.accumulate(buffers.masks),
                            .crossings = pass.accumulate(buffers.crossings),
-                           .counters = pass.accumulate(buffers.counters),
+                           .counters = counters,
                            .window = windowOf(job.tile)},
                           divideUp(buffers.items.count(), gpu::kItemsGroup));
 }
@@ -264,8 +267,7 @@ VoxelizeCapacities VoxelizeCapacities::grownFor(const gpu::BinCounters& counters
     grown.table = std::max(table, std::bit_ceil(2 * grown.bricks));
     if (counters.crossings_exceeded != 0)
     {
-        constexpr std::uint32_t kGrowth = 5; // 1, 5, 25
-        grown.fill_planes = std::min(kGrowth * fill_planes, gpu::kFillPlanesMax);
+        grown.fill_planes = std::min(2 * fill_planes, gpu::kFillPlanesMax);
     }
     if (counters.overflow_count != 0)
     {

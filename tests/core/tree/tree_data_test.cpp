@@ -84,7 +84,7 @@ TEST(TreeData, LeafGroupsTellTheFirstVoxelsOfLeafWords)
             const std::uint32_t word = 2 * uploaded.innerCount() + i;
             if (!uploaded.isDag() && word % 2 == 0)
             {
-                const gpu::uvec2 group = groups.at(1 + word / 8);
+                const gpu::uvec2 group = groups.at(gpu::kFirstLeafGroup + word / 8);
                 const std::array<gpu::uint, 4> before = {0, group.y & 255, group.y >> 8 & 511, group.y >> 17};
                 EXPECT_EQ(group.x + before.at(word % 8 / 2), leaf.base_lo) << sample.name << " leaf " << i;
             }

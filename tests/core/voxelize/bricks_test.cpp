@@ -206,9 +206,9 @@ TEST(Bricks, OfMoreThanHalfAMillionAreNumberedInOrder)
     // Their first voxels: a leaf has one.
     const std::vector<gpu::uvec2> groups = device.download(octree.leaf_groups);
     const std::uint32_t first_word = 2 * octree.levels.back().first_node;
-    for (std::uint32_t i = 1; i < groups.size(); ++i)
+    for (std::uint32_t i = gpu::kFirstLeafGroup; i < groups.size(); ++i)
     {
-        const std::uint32_t word = std::max((i - 1) * gpu::kLeafGroup, first_word);
+        const std::uint32_t word = std::max((i - gpu::kFirstLeafGroup) * gpu::kLeafGroup, first_word);
         ASSERT_EQ(groups[i].x, word - first_word) << i;
     }
 }
