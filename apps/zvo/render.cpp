@@ -92,15 +92,13 @@ public:
     // Voxelizes the static part once, and merges dynamic objects with it at each time.
     void play(AnimatedScene&& animated, const Grid& grid, const Cameras& cameras)
     {
-        if (m_options.voxels.fill != Fill::None)
-        {
-            throw Error(ErrorCode::Usage,
-                        "--fill does not go with moving objects, unless all is built anew: --rebuild");
-        }
         m_progress.begin("voxelizing what stands still");
         m_counts = SceneCounts::of(animated.fixed, grid, m_options.voxels.coverage);
         LiveScene scene(m_device, std::move(animated), grid,
-                        {m_options.voxels.coverage, m_options.voxels.hasAttributes(), structure()});
+                        {.coverage = m_options.voxels.coverage,
+                         .attributes = m_options.voxels.hasAttributes(),
+                         .structure = structure(),
+                         .fill = m_options.voxels.fill});
         for (std::uint32_t i = 0; goesOn(i); ++i)
         {
             m_progress.begin("updating");
@@ -117,6 +115,7 @@ public:
                 m_counts.triangles += scene.info().moving_triangle_count;
                 warnOfDropped(part.voxel_count + update.report.dynamic_count, part.dropped, m_counts,
                               m_options.voxels.load.strict);
+                warnOfOpenLines(part.open_lines, m_options.voxels.load.strict);
                 m_report.addAnimatedScene(scene, update);
                 m_report.addNodePaths(paths_passes);
             }

@@ -5,6 +5,7 @@
 #ifndef ZVO_SHADERS_EDIT_AVERAGE_GLSL
 #define ZVO_SHADERS_EDIT_AVERAGE_GLSL
 
+#include "edit/cells.glsl"
 #include "edit/edit.h"
 #include "lib/average.glsl"
 
@@ -12,7 +13,7 @@
 // control flow.
 void averageCell(uint index, bool exists, AVERAGE_CHILDREN children, uint children_offset)
 {
-    EditCell cell = EditCell(0u, 0u, 0u, 0u, 0u, 0u, 0u, 0u);
+    EditCell cell = unchangedCell(0u, 0u, 0u, uvec2(0u));
     if (exists && params.states.data[params.to].failed == 0u)
         cell = params.cells.data[index];
     bool has_children = (cell.mask_lo | cell.mask_hi) != 0u;

@@ -4,6 +4,7 @@
 #define ZVO_SHADERS_EDIT_CELLS_GLSL
 
 #include "edit/edit.h"
+#include "lib/node.glsl"
 
 // The shift from coordinates of voxels to those of a level's cells.
 uint levelShift(EditBox box, uint level)
@@ -72,6 +73,20 @@ uint levelOf(EditBox box, inout uint number)
     return level;
 }
 
+// A cell of the base tree, without what only leaves have.
+EditCell unchangedCell(uint base, uint voxels, uint rank, uvec2 mask)
+{
+    return EditCell(base, voxels, rank, mask.x, mask.y, 0u, 0u, 0u, 0u, 0u, 0u, 0u);
+}
+
+// The voxel of a cell's base tree: the index of its attribute, kInteriorIndex, or kNoEditNode. The cell is a leaf.
+uint baseVoxel(EditCell leaf, uint bit)
+{
+    Node surface = Node(leaf.surface_lo, leaf.voxels, leaf.surface_hi, leaf.voxels + bitCount(leaf.surface_lo));
+    uint inside = hasCell(uvec2(leaf.before_lo, leaf.before_hi), bit) ? kInteriorIndex : kNoEditNode;
+    return hasChild(surface, bit) ? childIndex(surface, bit) : inside;
+}
+
 uint shapeOf(Brush brush)
 {
     return brush.kind & ((1u << kBrushActionShift) - 1u);
@@ -79,7 +94,24 @@ uint shapeOf(Brush brush)
 
 uint actionOf(Brush brush)
 {
-    return brush.kind >> kBrushActionShift;
+    return bitfieldExtract(brush.kind, int(kBrushActionShift), 8);
+}
+
+// The neighbour of a cell by a face: side / 2 is the axis, and odd sides are the upper ones.
+uvec3 besideFace(uvec3 cell, uint side)
+{
+    return cell + uvec3(equal(uvec3(side >> 1), uvec3(0u, 1u, 2u))) * ((side & 1u) != 0u ? 1u : ~0u);
+}
+
+// The first and the last voxel of a dab's box before it was grown.
+uvec3 boxLow(Brush brush, EditBox box)
+{
+    return box.lo + (uvec3(brush.kind) >> (kBrushGrownShift + uvec3(0u, 1u, 2u)) & 1u);
+}
+
+uvec3 boxHigh(Brush brush, EditBox box)
+{
+    return box.hi - (uvec3(brush.kind) >> (kBrushGrownShift + uvec3(3u, 4u, 5u)) & 1u);
 }
 
 // Of a sphere.

@@ -20,20 +20,20 @@ void main()
     if (number >= levelCellCount(params.box, params.box.level_count - 1u))
         return;
     EditCell cell = params.cells.data[params.inner_count + number];
-    Node leaf = Node(0u, 0u, 0u, 0u);
-    if (cell.base != kNoEditNode)
-        leaf = loadNodeOf(params.nodes, uvec2_ConstPtr(0ul), cell.base);
     uvec3 at = 4u * cellOf(params.box, params.box.level_count - 1u, number) + cellNumbered(bit);
     uint word = stampCell(number, bit);
-    bool exists = hasChild(leaf, bit) && isInDab(params.box, at);
+    bool exists = hasCell(uvec2(cell.before_lo, cell.before_hi), bit) && isInDab(params.box, at);
     if (exists)
         atomicOr(params.stamp.data[stampMask(number, bit)], 1u << (bit & 31u));
     Attribute look = Attribute(0u, kNoNormal);
     uint emission = 0u;
     if (exists && kAttributes)
     {
-        uint index = childIndex(leaf, bit) + cell.voxels;
-        look = params.attributes.data[index];
+        uint index = baseVoxel(cell, bit);
+        if (index == kInteriorIndex)
+            look = interiorLook(params.node_attributes.data[cell.rank]);
+        else
+            look = params.attributes.data[index];
         if (kEmits && ((look.color >> 24) & kAttributeEmissive) != 0u)
             emission = params.emission.data[emissionIndex(params.emission_words, index)];
     }

@@ -42,6 +42,8 @@ const uint kBrushFill = 1u;  // makes voxels where there are none; of a stamp, a
 const uint kBrushPaint = 2u; // gives voxels another colour and another emission, or none
 
 const uint kBrushActionShift = 8u; // of the action in Brush::kind
+const uint kBrushGrownShift = 16u; // of bits that say on which sides the dab's EditBox has been grown by one voxel: x,
+                                   // y, z of its lower ones, then of its upper ones
 
 const uint kBrushRadiusMax = 64u;                   // voxels
 const uint kDabEdgeMax = 2u * kBrushRadiusMax + 1u; // of a dab's box
@@ -71,12 +73,13 @@ struct Brush
 {
     ivec3 lo; // of the box that it fills; may lie outside of the grid, and of the dab's EditBox
     ivec3 hi;
-    uint kind;     // shape | action << kBrushActionShift
+    uint kind;     // shape | action << kBrushActionShift | sides << kBrushGrownShift
     uint color;    // of voxels that are made or painted: sRGB red | green << 8 | blue << 16 | flags of Attribute << 24
     uint emission; // of such voxels, with kAttributeEmissive: RGB9E5, as in the emission table
 };
 
-/// The voxels of the grid that a brush can reach, at least one, and the cells that they lie in.
+/// The voxels of the grid that a brush can reach, at least one, and the cells that they lie in. Where voxels are carved
+/// from a filled tree, it is one voxel larger on all sides within the grid: what is laid bare gets attributes.
 struct EditBox
 {
     uvec3 lo;
@@ -88,10 +91,14 @@ struct EditBox
 struct EditCell
 {
     uint base;    // reference of the node of the base tree, or kNoEditNode
-    uint voxels;  // rank of the static octree's node at the same position; of a leaf, what its bases lack
-    uint rank;    // rank of that node among the nodes; of an octree, the index of its attributes
+    uint voxels;  // rank of the static octree's node at the same position; of a leaf, the index of its first attribute
+    uint rank;    // rank of that node among the nodes; of an octree, as of lib/ranks.glsl's descendBase()
     uint mask_lo; // after the dab
     uint mask_hi;
+    uint before_lo; // before it; of leaves alone, as the next
+    uint before_hi;
+    uint surface_lo; // those of before that have attributes
+    uint surface_hi;
     uint changed; // 0 or 1
     uint first; // of changed ones: the first child node, or the first voxel of a leaf; before edit/allocate: of leaves,
                 // how many voxels the dab makes, modulo 2^32
@@ -145,7 +152,7 @@ struct EditFindParams // push constants of edit/find: one thread a cell
     GPU_CONST_PTR(BeforeChild) ranks;
     GPU_PTR(EditCell) cells;
     GPU_CONST_PTR(uint) stamp; // [leaves * kStampWords] kStamp only
-    EditSlots slots;
+    uint root;                 // of the slot
     uint first_short_entry;
     Brush brush;
     EditBox box;
@@ -154,7 +161,8 @@ struct EditFindParams // push constants of edit/find: one thread a cell
     CONSTANT(0, uint, entries_per_word, kEntriesPerWord,                                                               \
              0u) /* of the lists of a DAG; 0: the static tree is an octree */                                          \
     CONSTANT(1, bool, attributes, kAttributes, false)                                                                  \
-    CONSTANT(2, bool, stamp, kStamp, false) /* only voxels of a stamp */
+    CONSTANT(2, bool, stamp, kStamp, false) /* only voxels of a stamp */                                               \
+    CONSTANT(3, bool, bares, kBares, false) /* what is laid bare changes as well: a filled tree is carved */
 GPU_KERNEL(edit, find, Find, EditFindParams, EDIT_FIND_CONSTANTS)
 
 struct EditAllocateParams // push constants of edit/allocate: one workgroup
@@ -202,7 +210,7 @@ GPU_KERNEL(edit, nodes, Nodes, EditNodesParams, EDIT_NODES_CONSTANTS)
 
 struct EditVoxelsParams // push constants of edit/voxels and edit/emission: a workgroup for each cell that is a leaf
 {
-    GPU_CONST_PTR(Node) nodes;
+    GPU_CONST_PTR(Attribute) node_attributes;
     GPU_CONST_PTR(EditCell) cells;
     GPU_CONST_PTR(EditState) states;
     GPU_PTR(Attribute) attributes;
@@ -218,14 +226,15 @@ struct EditVoxelsParams // push constants of edit/voxels and edit/emission: a wo
 GPU_KERNEL(edit, emission, Emission, EditVoxelsParams, EDIT_EMISSION_CONSTANTS)
 #define EDIT_VOXELS_CONSTANTS(CONSTANT)                                                                                \
     CONSTANT(0, bool, emits, kEmits, false)                                                                            \
-    CONSTANT(1, bool, stamp, kStamp, false) /* voxels look like those of a stamp */
+    CONSTANT(1, bool, stamp, kStamp, false) /* voxels look like those of a stamp */                                    \
+    CONSTANT(2, bool, bares, kBares, false) /* what is laid bare gets normals: a filled tree is carved */
 GPU_KERNEL(edit, voxels, Voxels, EditVoxelsParams, EDIT_VOXELS_CONSTANTS)
 
 struct EditCopyParams // push constants of edit/copy, behind edit/find: a workgroup for each cell that is a leaf
 {
-    GPU_CONST_PTR(Node) nodes;
+    GPU_CONST_PTR(Attribute) node_attributes; // kAttributes only, as the next
     GPU_CONST_PTR(EditCell) cells;
-    GPU_CONST_PTR(Attribute) attributes; // kAttributes only
+    GPU_CONST_PTR(Attribute) attributes;
     GPU_CONST_PTR(uvec2) emission_words; // kEmits only, as the next
     GPU_CONST_PTR(uint) emission;
     GPU_PTR(uint) stamp; // [leaves * kStampWords]

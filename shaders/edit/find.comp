@@ -20,11 +20,11 @@ RankedNode baseNode(uint level, uvec3 cell)
 {
     RankSource source =
         RankSource(params.nodes, params.before, params.voxels_before_leaf, params.first_short_entry);
-    RankedNode at = RankedNode(params.slots.region_node + params.slots.from, 0u, 0u);
+    RankedNode at = RankedNode(params.root, 0u, kEntriesPerWord == 0u ? octreeRank(source, params.root) : 0u);
     for (uint l = 0u; l < level && at.node != kNoEditNode; ++l)
     {
         uint child = cellInBlock(cell >> (2u * (level - 1u - l)));
-        bool exists = hasChild(params.nodes.data[at.node], child);
+        bool exists = hasCell(nodeMask(params.nodes, at.node), child);
         if (exists)
             descendBase(source, params.ranks, child, l + 2u == params.box.level_count, kRanks, at);
         at.node = exists ? at.node : kNoEditNode;
@@ -43,16 +43,15 @@ ivec4 axisSquares(int first, uint lo, uint hi, int center, bool is_box, int limi
     return mix(ivec4(limit + 1), squares, notEqual(inside, uvec4(0u)));
 }
 
-// The mask of a leaf's voxels that the brush covers, as isUnderBrush() says, and the dab's box has. leaf: among leaves.
-uvec2 voxelsUnderBrush(uvec3 leaf)
+// The mask of a leaf's voxels that the brush covers, as isUnderBrush() says, within a part of the dab's box. more: what
+// its radius grows by. leaf: among leaves.
+uvec2 voxelsUnderBrush(uvec3 leaf, uvec3 lo, uvec3 hi, int more)
 {
     bool is_box = shapeOf(params.brush) == kBrushBox;
-    int radius = radiusOf(params.brush);
+    int radius = radiusOf(params.brush) + more;
     int limit = is_box ? 0 : radius * (radius + 1);
     ivec3 first = 4 * ivec3(leaf);
-    uvec3 lo = params.box.lo;
-    uvec3 hi = params.box.hi;
-    ivec3 center = params.brush.lo + radius;
+    ivec3 center = params.brush.lo + radiusOf(params.brush);
     ivec4 x = axisSquares(first.x, lo.x, hi.x, center.x, is_box, limit);
     ivec4 y = axisSquares(first.y, lo.y, hi.y, center.y, is_box, limit);
     ivec4 z = axisSquares(first.z, lo.z, hi.z, center.z, is_box, limit);
@@ -68,24 +67,71 @@ uvec2 voxelsUnderBrush(uvec3 leaf)
     return under;
 }
 
-// Computes the leaf's mask after the dab, whether the mask or a voxel changes, and how many voxels more there are then.
-// number: of the leaf among the cells that are leaves.
-void dab(Node base, uvec3 leaf, uint number, inout EditCell cell)
+// The mask of a stamp's voxels in a leaf.
+uvec2 stampOf(uint leaf)
 {
-    uvec2 mask = uvec2(base.mask_lo, base.mask_hi);
-    uvec2 under = voxelsUnderBrush(leaf);
+    return uvec2(params.stamp.data[stampMask(leaf, 0u)], params.stamp.data[stampMask(leaf, 32u)]);
+}
+
+// The voxels of a leaf that a brush which carves may lay bare: all close to a brush, and to a stamp those of leaves that
+// it has voxels in, or in a neighbour by a face. number: of the leaf among the cells that are leaves.
+uvec2 voxelsNearBrush(uvec3 leaf, uint number)
+{
+    if (!kStamp)
+        return voxelsUnderBrush(leaf, params.box.lo, params.box.hi, 1);
+    uint level = params.box.level_count - 1u;
+    uvec2 near = stampOf(number);
+    [[unroll]] for (uint side = 0u; side < 6u; ++side)
+    {
+        uvec3 beside = besideFace(leaf, side);
+        if (isInBox(params.box, level, beside))
+            near |= stampOf(cellNumber(params.box, level, beside));
+    }
+    return (near.x | near.y) != 0u ? uvec2(~0u) : uvec2(0u);
+}
+
+// Computes the leaf's mask after the dab, whether the mask or a voxel changes, and how many voxels more there are then.
+// number: of the leaf among the cells that are leaves. own: all of its voxels have attributes, which a brush gave them.
+void dab(uvec3 leaf, uint number, bool own, inout EditCell cell)
+{
+    uvec2 mask = uvec2(cell.before_lo, cell.before_hi);
+    uvec2 under =
+        voxelsUnderBrush(leaf, boxLow(params.brush, params.box), boxHigh(params.brush, params.box), 0);
     if (kStamp)
-        under &= uvec2(params.stamp.data[stampMask(number, 0u)], params.stamp.data[stampMask(number, 32u)]);
+        under &= stampOf(number);
     uint action = actionOf(params.brush);
     bool paints = action == kBrushPaint || (kStamp && action == kBrushFill);
     uvec2 made = action == kBrushFill ? under & ~mask : uvec2(0u);
     uvec2 taken = action == kBrushCarve ? under & mask : uvec2(0u);
     uvec2 painted = paints && kAttributes ? under & mask : uvec2(0u);
     uvec2 touched = made | taken | painted;
+    if (kBares) // all that may be laid bare, and has no attributes or may lack a normal
+    {
+        uvec2 without = own ? mask : mask & ~uvec2(cell.surface_lo, cell.surface_hi);
+        touched |= voxelsNearBrush(leaf, number) & without;
+    }
     cell.mask_lo = (mask.x | made.x) & ~taken.x;
     cell.mask_hi = (mask.y | made.y) & ~taken.y;
     cell.changed = (touched.x | touched.y) != 0u ? 1u : 0u;
     cell.first = bitCount(made.x) + bitCount(made.y) - bitCount(taken.x) - bitCount(taken.y);
+}
+
+// What the brush makes of a leaf.
+void findLeaf(RankedNode at, uvec3 position, uint number, inout EditCell cell)
+{
+    uvec2_ConstPtr leaf_groups = uvec2_ConstPtr(kEntriesPerWord == 0u ? uint64_t(params.before) : 0ul);
+    bool own = false;
+    if (at.node != kNoEditNode)
+    {
+        Node surface = loadSurfaceOf(params.nodes, leaf_groups, at.node);
+        cell.before_lo = cell.mask_lo;
+        cell.before_hi = cell.mask_hi;
+        cell.voxels = at.voxels + surface.base_lo;
+        cell.surface_lo = surface.mask_lo;
+        cell.surface_hi = surface.mask_hi;
+        own = !isLeafWord(at.node) && !isFullNode(params.nodes.data[at.node & ~kFullNodes].base_lo);
+    }
+    dab(position, number, own, cell);
 }
 
 void main()
@@ -97,13 +143,11 @@ void main()
         return;
     uvec3 position = cellOf(params.box, level, number);
     RankedNode at = baseNode(level, position);
-    Node base = Node(0u, 0u, 0u, 0u);
+    uvec2 mask = uvec2(0u);
     if (at.node != kNoEditNode)
-        base = loadNodeOf(params.nodes, uvec2_ConstPtr(0ul), at.node);
-    if (kEntriesPerWord == 0u && at.node != kNoEditNode && isLeafWord(at.node))
-        at.voxels = firstVoxel(params.nodes, uvec2_ConstPtr(uint64_t(params.before)), at.node);
-    EditCell cell = EditCell(at.node, at.voxels, at.rank, base.mask_lo, base.mask_hi, 0u, 0u, 0u);
+        mask = nodeMask(params.nodes, at.node);
+    EditCell cell = unchangedCell(at.node, at.voxels, at.rank, mask);
     if (level + 1u == params.box.level_count)
-        dab(base, position, number, cell);
+        findLeaf(at, position, number, cell);
     params.cells.data[index] = cell;
 }

@@ -29,7 +29,7 @@ Node unchangedChild(EditCell parent, uint bit, bool is_leaf, uint index)
     RankedNode at = RankedNode(parent.base, parent.voxels, parent.rank);
     descendBase(source, BeforeChild_ConstPtr(uint64_t(params.ranks)), bit, is_leaf, kRanks, at);
     uint64_t leaf_groups = kEntriesPerWord == 0u ? uint64_t(params.before) : 0ul;
-    Node child = loadNodeOf(source.pool, uvec2_ConstPtr(leaf_groups), at.node);
+    Node child = loadCopyOf(source.pool, uvec2_ConstPtr(leaf_groups), at.node);
     if (is_leaf)
     {
         child.base_lo += at.voxels;
@@ -38,9 +38,13 @@ Node unchangedChild(EditCell parent, uint bit, bool is_leaf, uint index)
     if (kRanks)
         params.ranks.data[index] = BeforeChild(is_leaf ? 0u : at.voxels, at.rank);
     if (kAttributes)
-        params.node_attributes.data[index + params.attribute_offset] =
-            params.node_attributes.data[isBehind(params.static_root, at.node) ? at.node + params.attribute_offset
-                                                                              : at.rank];
+    {
+        bool is_behind = isBehind(params.static_root, at.node);
+        Attribute look = params.node_attributes.data[is_behind ? at.node + params.attribute_offset : at.rank];
+        if (kEntriesPerWord == 0u && isFullNode(at.node))
+            look = interiorLook(look);
+        params.node_attributes.data[index + params.attribute_offset] = look;
+    }
     return child;
 }
 

@@ -24,10 +24,55 @@ Attribute madeLook(uvec3 cell)
     return Attribute(params.brush.color, normal == ivec3(0) ? kNoNormal : encodeNormal(normal));
 }
 
+// The voxel of a stamp at a position, as the first word of its look, or ~0.
+uint stampWordAt(uvec3 voxel)
+{
+    uint level = params.box.level_count - 1u;
+    uint leaf = cellNumber(params.box, level, voxel >> 2);
+    uint bit = cellInBlock(voxel);
+    bool has_voxel = ((params.stamp.data[stampMask(leaf, bit)] >> (bit & 31u)) & 1u) != 0u;
+    return has_voxel ? stampCell(leaf, bit) : ~0u;
+}
+
+// The normal of a voxel that a brush lays bare as it takes a neighbour by a face: into the brush, or against the normals
+// of what a stamp takes there. Zero for other voxels.
+ivec3 bareNormal(uvec3 cell)
+{
+    uvec3 lo = boxLow(params.brush, params.box);
+    uvec3 hi = boxHigh(params.brush, params.box);
+    bool bare = false;
+    ivec3 taken = ivec3(0);
+    [[unroll]] for (uint side = 0u; side < 6u; ++side)
+    {
+        uvec3 beside = besideFace(cell, side);
+        if (any(lessThan(beside, lo)) || any(greaterThan(beside, hi)))
+            continue;
+        if (kStamp)
+        {
+            uint word = stampWordAt(beside);
+            taken += word != ~0u ? decodeNormal(params.stamp.data[word + 1u]) : ivec3(0);
+        }
+        else
+        {
+            bare = bare || isUnderBrush(params.brush, beside);
+        }
+    }
+    return kStamp ? -taken : bare ? -brushNormal(params.brush, cell) : ivec3(0);
+}
+
 // The look of a voxel that was there before.
 Attribute keptLook(EditVoxel voxel)
 {
-    Attribute before = params.attributes.data[voxel.base];
+    Attribute before;
+    if (voxel.base == kInteriorIndex)
+        before = interiorLook(params.node_attributes.data[voxel.around]);
+    else
+        before = params.attributes.data[voxel.base];
+    if (kBares && before.normal == kNoNormal)
+    {
+        ivec3 normal = bareNormal(voxel.cell);
+        before.normal = normal != ivec3(0) ? encodeNormal(normal) : kNoNormal;
+    }
     return Attribute(isPainted(voxel) ? params.brush.color : before.color, before.normal);
 }
 

@@ -16,17 +16,18 @@ struct EditVoxel
 {
     bool exists;
     uint index; // of its attribute
-    uint base;  // of its attribute in the base tree, or kNoEditNode
+    uint base;  // of its attribute in the base tree; kInteriorIndex, or kNoEditNode
     uvec3 cell; // in the grid
     uint leaf;  // its number among the cells that are leaves
     uint bit;   // its cell in the leaf
+    uint around; // of the node attributes that it looks like if it is inside
 };
 
 EditVoxel editVoxel()
 {
     uint number = workgroupIndex();
     uint bit = gl_LocalInvocationIndex;
-    EditVoxel voxel = EditVoxel(false, 0u, kNoEditNode, uvec3(0u), number, bit);
+    EditVoxel voxel = EditVoxel(false, 0u, kNoEditNode, uvec3(0u), number, bit, 0u);
     if (number < levelCellCount(params.box, params.box.level_count - 1u) &&
         params.states.data[params.to].failed == 0u)
     {
@@ -35,11 +36,8 @@ EditVoxel editVoxel()
         voxel.exists = cell.changed != 0u && hasChild(leaf, bit);
         voxel.index = childIndex(leaf, bit);
         voxel.cell = 4u * cellOf(params.box, params.box.level_count - 1u, number) + cellNumbered(bit);
-        if (cell.base != kNoEditNode)
-        {
-            Node base = loadNodeOf(params.nodes, uvec2_ConstPtr(0ul), cell.base);
-            voxel.base = hasChild(base, bit) ? childIndex(base, bit) + cell.voxels : kNoEditNode;
-        }
+        voxel.base = baseVoxel(cell, bit);
+        voxel.around = cell.rank;
     }
     return voxel;
 }

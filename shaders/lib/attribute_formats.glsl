@@ -99,7 +99,7 @@ Attribute readAttribute(uint format, bool voxel, Attribute_ConstPtr voxels, Attr
     if (index >= kInteriorIndex) // what is inside has the mean colour of all
     {
         Attribute mean = readStored(format, uint64_t(nodes), 0u);
-        return Attribute(mean.color & 0xffffffu, kNoNormal);
+        return Attribute(mean.color & kColorMask, kNoNormal);
     }
     if (format == kFormatBlocks && voxel)
         return unpackBlock(uint_ConstPtr(uint64_t(voxels)), index);

@@ -50,7 +50,8 @@ uvec2 nodeMask(Node_ConstPtr pool, uint reference)
 {
     if (isLeafWord(reference))
         return unpackUint2x32(uint64_t_ConstPtr(uint64_t(pool)).data[leafWord(reference)]);
-    return uvec2(pool.data[reference].mask_lo, pool.data[reference].mask_hi);
+    uint number = reference & ~kFullNodes;
+    return uvec2(pool.data[number].mask_lo, pool.data[number].mask_hi);
 }
 
 // The first voxel of a leaf word of an octree.
@@ -80,6 +81,43 @@ Node loadNodeOf(Node_ConstPtr pool, uvec2_ConstPtr leaf_groups, uint reference)
     return Node(mask.x, first, mask.y, first + bitCount(mask.x));
 }
 
+bool isFullNode(uint reference)
+{
+    return (reference & kFullNodes) != 0u;
+}
+
+// What is inside, and has no attributes, looks like the node around it.
+Attribute interiorLook(Attribute around)
+{
+    return Attribute(around.color & kColorMask, kNoNormal);
+}
+
+// A node by its reference as an overlay has a copy of it.
+Node loadCopyOf(Node_ConstPtr pool, uvec2_ConstPtr leaf_groups, uint reference)
+{
+    Node node = loadNodeOf(pool, leaf_groups, reference);
+    if (isLeafWord(reference) && uint64_t(leaf_groups) != 0ul && leaf_groups.data[1].x != 0u)
+    {
+        uvec2 mask = nodeMask(pool, reference);
+        node = Node(mask.x, kFullNodes | reference, mask.y, kFullNodes | reference);
+    }
+    return node;
+}
+
+// A leaf by its reference, static or of an overlay, with those of its voxels that have attributes.
+Node loadSurfaceOf(Node_ConstPtr pool, uvec2_ConstPtr leaf_groups, uint reference)
+{
+    Node leaf = loadNodeOf(pool, leaf_groups, reference);
+    if (uint64_t(leaf_groups) != 0ul && !isLeafWord(reference) && isFullNode(leaf.base_lo))
+    {
+        uint word = leaf.base_lo & ~kFullNodes;
+        leaf = Node(0u, 0u, 0u, 0u);
+        if (isLeafWord(word))
+            leaf = loadNodeOf(pool, leaf_groups, word);
+    }
+    return leaf;
+}
+
 // The index of a node's attributes in an octree with leaf words. first: element 0 of the leaf groups.
 uint nodeIndexBy(uvec2 first, uint reference)
 {
@@ -99,7 +137,7 @@ uint nodeIndexOf(uvec2_ConstPtr leaf_groups, uint reference)
 // Whether a node is the static root of a tree with room for overlays, or stands behind it.
 bool isBehind(uint static_root, uint reference)
 {
-    return !isLeafWord(reference) && reference >= static_root;
+    return (reference & (kLeafWords | kFullNodes)) == 0u && reference >= static_root;
 }
 
 // Whether the bit of a cell is set in masks as a node has them.

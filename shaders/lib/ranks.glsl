@@ -78,18 +78,27 @@ void descendToLeaf(RankSource source, uint cell, bool with_rank, inout RankedNod
         at.rank += 1u + index - entryIndex(source, at.node, 0u);
 }
 
+// The index of the attributes of an octree's node that is not full.
+uint octreeRank(RankSource source, uint reference)
+{
+    return nodeIndexOf(uvec2_ConstPtr(uint64_t(source.before)), reference);
+}
+
 // From a node of a base tree, which may have been edited (edit/edit.h), to the child in a cell, which must exist.
 // ranked: ranks are kept, as for a DAG with attributes. Otherwise, in an octree, a node's rank is the index of its
-// attributes, and voxels stay 0.
+// attributes, of a full node that of the lowest other node around it; and voxels stay 0.
 void descendBase(RankSource source, BeforeChild_ConstPtr overlay_ranks, uint cell, bool to_leaf, bool ranked,
                  inout RankedNode at)
 {
-    uint index = childIndex(source.pool.data[at.node], cell);
+    uint index = childIndex(source.pool.data[at.node & ~kFullNodes], cell);
+    if (!ranked && kEntriesPerWord == 0u)
+    {
+        at = RankedNode(index, 0u, isFullNode(index) ? at.rank : octreeRank(source, index));
+        return;
+    }
     if (!ranked)
     {
-        uint child = kEntriesPerWord != 0u ? listedChild(source.pool, index, kEntriesPerWord) : index;
-        uint64_t leaf_groups = kEntriesPerWord == 0u ? uint64_t(source.before) : 0ul;
-        at = RankedNode(child, 0u, nodeIndexOf(uvec2_ConstPtr(leaf_groups), child));
+        at = RankedNode(listedChild(source.pool, index, kEntriesPerWord), 0u, 0u);
         return;
     }
     if (descendInOverlay(source, overlay_ranks, cell, at))

@@ -137,8 +137,13 @@ void beginBelowRoot(vec3 origin, vec3 inverse, uint mirror, uvec3 limits, inout 
 // in the leaf.
 uint voxelIndex(uint leaf, uint cell)
 {
-    if (kEntriesPerWord == 0u && (leaf & kFullNodes) != 0u)
-        return kInteriorIndex;
+    if (kEntriesPerWord == 0u && !isLeafWord(leaf))
+    {
+        uint base = loadHalf(2u * leaf).y; // of an overlay's leaf, whose voxels may be those of a leaf word
+        leaf = isFullNode(base) ? (isLeafWord(base) ? base & ~kFullNodes : base) : leaf;
+        if (isFullNode(leaf))
+            return kInteriorIndex;
+    }
     bool is_word = isLeafWord(leaf);
     uint pair = is_word ? leafWord(leaf) >> 1 : leaf;
     uint surface = pair;

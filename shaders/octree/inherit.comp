@@ -16,7 +16,7 @@ void main()
         return;
     uint number = params.first_node + threadIndex();
     Node node = params.nodes.data[number];
-    uint color = params.attributes.data[number].color & 0xffffffu;
+    uint color = params.attributes.data[number].color & kColorMask;
     uint end = node.base_lo + bitCount(node.mask_lo) + bitCount(node.mask_hi);
     for (uint child = node.base_lo; child < end; ++child)
         if ((params.attributes.data[child].color & (kAttributeNone << 24)) != 0u)

@@ -42,6 +42,9 @@
 //     inner nodes | leaf words, to a whole node | 64 full nodes | surface masks, to a whole node
 //
 // Bases that name them have the flag kFullNodes, which vanishes where references become numbers of half nodes.
+//
+// Leaves of overlays are nodes with one mask. One that is a copy of a filled tree's leaf word has, as both bases,
+// kFullNodes | the reference of that word, whose voxels it has; a copy of a full node keeps the bases of a full node.
 #ifndef ZVO_SHADERS_SHARED_OCTREE_H
 #define ZVO_SHADERS_SHARED_OCTREE_H
 
@@ -70,6 +73,8 @@ GPU_BUFFER(Attribute, 8);
 /// The normal of a voxel or node whose surfaces face all ways, such as both sides of a shell that is thinner than a
 /// voxel. It is shaded with the normal of the face that the ray comes in through. No direction has this code.
 const uint kNoNormal = 0x80008000u;
+
+const uint kColorMask = 0xffffffu; // of Attribute::color, without flags
 
 const uint kAttributeEmissive = 1u; // flag: the voxel has an entry in the emission table
 const uint kAttributeNone = 2u;     // flag: of a node that has no voxel of the surface

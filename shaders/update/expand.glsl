@@ -28,6 +28,15 @@ RankedNode baseChild(TouchedNode parent, uint cell, bool are_leaves)
     return at;
 }
 
+// The attributes of such a child, which touched nodes have until they are averaged.
+Attribute baseLook(TouchedNode parent, RankedNode base)
+{
+    if (kEntriesPerWord == 0u && isFullNode(base.node))
+        return interiorLook(params.node_attributes.data[parent.node + params.attribute_offset]);
+    bool is_behind = isBehind(params.static_root, base.node);
+    return params.node_attributes.data[is_behind ? base.node + params.attribute_offset : base.rank];
+}
+
 // Gives a touched node its child base.
 void setBase(uint node, uint base)
 {
@@ -49,14 +58,14 @@ uint expandChild(uint entry, uint cell, bool dag_leaves, out uint child)
     RankedNode base = RankedNode(kNoNode, 0u, 0u);
     if (touched.base != kNoNode)
     {
-        Node base_node = params.nodes.data[touched.base];
+        Node base_node = params.nodes.data[touched.base & ~kFullNodes];
         if (hasChild(base_node, cell))
             base = baseChild(touched, cell, dag_leaves);
     }
     Node merged = Node(0u, 0u, 0u, 0u);
     uint64_t leaf_groups = kEntriesPerWord == 0u ? uint64_t(params.before) : 0ul;
     if (base.node != kNoNode)
-        merged = loadNodeOf(Node_ConstPtr(uint64_t(params.nodes)), uvec2_ConstPtr(leaf_groups), base.node);
+        merged = loadCopyOf(Node_ConstPtr(uint64_t(params.nodes)), uvec2_ConstPtr(leaf_groups), base.node);
     if (kRanks)
         params.ranks.data[child] = BeforeChild(base.voxels, base.rank);
     uint count = 0u;
@@ -69,19 +78,13 @@ uint expandChild(uint entry, uint cell, bool dag_leaves, out uint child)
         params.touched.data[child_entry] = TouchedNode(child, base.node);
         count = bitCount(merged.mask_lo) + bitCount(merged.mask_hi);
     }
-    else
+    else if (kRanks && dag_leaves) // written as an octree's leaf
     {
-        if (kAttributes)
-            params.node_attributes.data[child + params.attribute_offset] =
-                params.node_attributes.data[isBehind(params.static_root, base.node)
-                                                ? base.node + params.attribute_offset
-                                                : base.rank];
-        if (kRanks && dag_leaves) // written as an octree's leaf
-        {
-            merged.base_lo += base.voxels;
-            merged.base_hi += base.voxels;
-        }
+        merged.base_lo += base.voxels;
+        merged.base_hi += base.voxels;
     }
+    if (kAttributes && base.node != kNoNode)
+        params.node_attributes.data[child + params.attribute_offset] = baseLook(touched, base);
     params.counts.data[child - params.first_node] = count;
     params.nodes.data[child] = merged;
     return count;

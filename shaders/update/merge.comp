@@ -8,12 +8,21 @@
 
 layout(local_size_x = kUpdateGroup) in;
 
-void mergeVoxel(MergedVoxel voxel)
+// What the voxel looks like in the base tree.
+Attribute baseLook(MergedLeaf leaf, MergedVoxel voxel)
 {
-    SceneView_ConstPtr scene = params.view.data[0].scene;
+    if (voxel.base == kInteriorIndex)
+        return interiorLook(params.node_attributes.data[leaf.look]);
     Attribute look = Attribute(0u, 0u);
     if (voxel.base != kNoVoxel)
         look = params.attributes.data[voxel.base];
+    return look;
+}
+
+void mergeVoxel(MergedLeaf leaf, MergedVoxel voxel)
+{
+    SceneView_ConstPtr scene = params.view.data[0].scene;
+    Attribute look = baseLook(leaf, voxel);
     VoxelSums sums = VoxelSums(0u, 0u, 0u, 0u, 0u, 0u, 0u, 0u);
     bool emits = false;
     LayerVoxel layer_voxel = firstLayerVoxel(voxel);
@@ -49,5 +58,5 @@ void main()
 {
     MergedLeaf leaf = mergedLeaf(mergeItem());
     for (uint n = mergeFirst(); n < leaf.count; n += kMergeThreads)
-        mergeVoxel(mergedVoxel(leaf, n));
+        mergeVoxel(leaf, mergedVoxel(leaf, n));
 }

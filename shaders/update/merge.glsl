@@ -21,15 +21,17 @@ const uint kNoVoxel = ~0u;
 struct MergedLeaf
 {
     Node node;
-    Node base; // bases of attributes
+    Node base;      // its voxels that have attributes, with their indices
+    uvec2 occupied; // all of its voxels
     bool has_base;
+    uint look; // index of its attributes among those of nodes: before they are averaged, what is inside has their colour
     uint head;  // record + 1 of the first layer that has the leaf
     uint count; // of its voxels
 };
 
 MergedLeaf mergedLeaf(uint item)
 {
-    MergedLeaf leaf = MergedLeaf(Node(0u, 0u, 0u, 0u), Node(0u, 0u, 0u, 0u), false, 0u, 0u);
+    MergedLeaf leaf = MergedLeaf(Node(0u, 0u, 0u, 0u), Node(0u, 0u, 0u, 0u), uvec2(0u), false, 0u, 0u, 0u);
     LevelRange range = params.ranges.data[0];
     if (item < range.count)
     {
@@ -38,7 +40,11 @@ MergedLeaf mergedLeaf(uint item)
         leaf.node = params.nodes.data[touched.node];
         leaf.has_base = touched.base != kNoNode;
         if (leaf.has_base)
-            leaf.base = loadNodeOf(params.nodes, params.leaf_groups, touched.base);
+        {
+            leaf.base = loadSurfaceOf(params.nodes, params.leaf_groups, touched.base);
+            leaf.occupied = nodeMask(params.nodes, touched.base);
+        }
+        leaf.look = touched.node + params.attribute_offset;
         uint first_voxel = kRanks ? params.ranks.data[touched.node].voxels : 0u;
         leaf.base.base_lo += first_voxel;
         leaf.base.base_hi += first_voxel;
@@ -66,7 +72,7 @@ uint setBit(uint mask, uint n)
 struct MergedVoxel
 {
     uint index; // of its attribute
-    uint base;  // of its attribute in the base tree, or kNoVoxel
+    uint base;  // of its attribute in the base tree; kInteriorIndex, or kNoVoxel
     uint cell;  // in its leaf
     uint head;  // record + 1 of the first layer that has the leaf
 };
@@ -79,7 +85,8 @@ MergedVoxel mergedVoxel(MergedLeaf leaf, uint n)
     voxel.index = leaf.node.base_lo + n;
     voxel.cell = n < count_lo ? setBit(leaf.node.mask_lo, n) : 32u + setBit(leaf.node.mask_hi, n - count_lo);
     voxel.head = leaf.head;
-    voxel.base = leaf.has_base && hasChild(leaf.base, voxel.cell) ? childIndex(leaf.base, voxel.cell) : kNoVoxel;
+    voxel.base = hasCell(leaf.occupied, voxel.cell) ? kInteriorIndex : kNoVoxel;
+    voxel.base = hasChild(leaf.base, voxel.cell) ? childIndex(leaf.base, voxel.cell) : voxel.base;
     return voxel;
 }
 

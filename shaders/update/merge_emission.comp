@@ -14,7 +14,7 @@ void mergeEmission(MergedVoxel voxel)
     if (((params.attributes.data[voxel.index].color >> 24) & kAttributeEmissive) == 0u)
         return;
     bool base_emits = false;
-    if (voxel.base != kNoVoxel)
+    if (voxel.base < kInteriorIndex)
         base_emits = ((params.attributes.data[voxel.base].color >> 24) & kAttributeEmissive) != 0u;
     EmissionSums sums = EmissionSums(0u, 0u, 0u);
     uint fragments = 0u;

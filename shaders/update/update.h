@@ -287,11 +287,13 @@ struct MergeParams // push constants of update/merge and update/merge_emission
     GPU_CONST_PTR(Node) nodes;
     GPU_CONST_PTR(uvec2) leaf_groups; // of an octree
     GPU_CONST_PTR(BeforeChild) ranks; // by nodes of overlays; kRanks only
+    GPU_CONST_PTR(Attribute) node_attributes;
     GPU_PTR(Attribute) attributes;
     GPU_PTR(uvec2) emission_words; // the overlay's bits cleared; or null
     GPU_PTR(uint) emission;        // or null
     GPU_PTR(OverlayState) state;
     uint sum_shift;
+    uint attribute_offset; // modulo 2^32
 };
 GPU_KERNEL(update, merge, Merge, MergeParams, MERGE_CONSTANTS)
 GPU_KERNEL(update, merge_emission, MergeEmission, MergeParams, MERGE_CONSTANTS)

@@ -37,10 +37,13 @@ public:
           m_emission_words(device.download(tree.emission_words)), m_emission(device.download(tree.emission))
     {
         m_attribute_offset = tree.hasOverlays() ? tree.attributeOffset() : 0;
+        m_is_filled = tree.filled;
         if (!tree.isDag())
         {
+            const std::uint64_t first = 2 * std::uint64_t{m_inner_count};
+            m_to_surface = tree.filled ? tree.nodeWords() - tree.leaf_words - first : 0;
             std::uint32_t voxels = 0;
-            for (std::uint64_t word = 2 * std::uint64_t{m_inner_count}; word < tree.nodeWords(); ++word)
+            for (std::uint64_t word = first + m_to_surface; word < first + m_to_surface + tree.leaf_words; ++word)
             {
                 m_first_voxels.push_back(voxels);
                 voxels += static_cast<std::uint32_t>(std::popcount(m_words[word]));
@@ -68,12 +71,30 @@ public:
         {
             return m_nodes[at.node];
         }
-        const std::uint32_t word = at.node & ~gpu::kLeafWords;
-        const auto mask_lo = static_cast<gpu::uint>(m_words[word]);
-        const std::uint32_t first = m_first_voxels.empty() ? 0 : m_first_voxels[word - 2 * m_inner_count];
-        return {mask_lo, first, static_cast<gpu::uint>(m_words[word] >> 32),
-                first + static_cast<std::uint32_t>(std::popcount(mask_lo))};
+        return leafOf(at.node & ~gpu::kLeafWords, 0);
     }
+
+    // Whether a node is full, or a leaf has the voxels of another one.
+    [[nodiscard]] bool isFull(const gpu::Node& node) const
+    {
+        return m_is_filled && (node.base_lo & gpu::kFullNodes) != 0;
+    }
+
+    // A leaf with those of its voxels that have attributes.
+    [[nodiscard]] gpu::Node surface(const NodeOnPath& leaf) const
+    {
+        std::uint32_t named = leaf.node;
+        if ((named & gpu::kLeafWords) == 0 && isFull(m_nodes[named]))
+        {
+            named = m_nodes[named].base_lo & ~gpu::kFullNodes;
+            if ((named & gpu::kLeafWords) == 0)
+            {
+                return {};
+            }
+        }
+        return (named & gpu::kLeafWords) == 0 ? m_nodes[named] : leafOf(named & ~gpu::kLeafWords, m_to_surface);
+    }
+    [[nodiscard]] bool isFilled() const { return m_is_filled; }
     [[nodiscard]] bool hasAttributes() const { return !m_voxels.empty(); }
     [[nodiscard]] bool hasAverages() const { return !m_averages.empty(); }
 
@@ -117,6 +138,16 @@ public:
     }
 
 private:
+    // The mask of a leaf word, or another one of the same leaf, and its bases.
+    [[nodiscard]] gpu::Node leafOf(std::uint32_t word, std::uint64_t to_mask) const
+    {
+        const std::uint64_t mask = m_words[word + to_mask];
+        const auto mask_lo = static_cast<gpu::uint>(mask);
+        const std::uint32_t first = m_first_voxels.empty() ? 0 : m_first_voxels[word - 2 * m_inner_count];
+        return {mask_lo, first, static_cast<gpu::uint>(mask >> 32),
+                first + static_cast<std::uint32_t>(std::popcount(mask_lo))};
+    }
+
     [[nodiscard]] gpu::BeforeChild rankOf(const NodeOnPath& parent, std::uint32_t index, bool is_leaf) const
     {
         if (m_voxels.empty())
@@ -139,6 +170,8 @@ private:
     std::vector<gpu::Node> m_nodes;
     std::vector<std::uint64_t> m_words;        // the same
     std::uint32_t m_inner_count;               // of the static tree
+    bool m_is_filled = false;
+    std::uint64_t m_to_surface = 0;            // from a leaf word to its surface mask, in words
     std::vector<std::uint32_t> m_first_voxels; // of the leaf words of an octree
     std::vector<gpu::Attribute> m_voxels;
     std::vector<gpu::Attribute> m_averages;
@@ -178,6 +211,7 @@ public:
         }
         m_tree.voxel_count = static_cast<std::uint32_t>(m_voxel_count);
         m_tree.octree_node_count = static_cast<std::uint32_t>(m_tree.nodes.size());
+        m_tree.interior_count = interiorCount(m_tree);
         if (m_tree.emission.empty())
         {
             m_tree.emission_words.clear();
@@ -197,7 +231,15 @@ private:
         const std::uint64_t first_child = m_tree.nodes.size() + level.size();
         for (const NodeOnPath& at : level)
         {
-            gpu::Node node = m_source.node(at);
+            gpu::Node node = are_leaves ? m_source.surface(at) : m_source.node(at);
+            if (are_leaves && m_source.isFilled())
+            {
+                m_tree.occupied.push_back(cellMask(m_source.node(at)));
+            }
+            else if (m_source.isFull(node)) // TreeData has no nodes below
+            {
+                node = {};
+            }
             const std::uint64_t first = are_leaves ? m_voxel_count : first_child + children.size();
             addHalf(at, node.mask_lo, node.base_lo, depth, children);
             addHalf(at, node.mask_hi, node.base_hi, depth, children);

@@ -76,7 +76,9 @@ TEST(FlattenTree, OfMergedObjectsIsWhatVoxelizingEverythingGives)
 TEST(FlattenTree, OfAnEditedTreeHasWhatTheModelHas)
 {
     DynamicScenery scenery(device(), true);
-    for (const DynamicSetting& setting : settings())
+    std::vector<DynamicSetting> all = settings();
+    all.push_back({.depth = 6, .filled = true});
+    for (const DynamicSetting& setting : all)
     {
         SCOPED_TRACE(::testing::PrintToString(setting));
         test::EditMachine machine(device(), setting, DynamicOptions().edits, scenery);

@@ -111,7 +111,7 @@ std::ostream& operator<<(std::ostream& out, const DynamicSetting& s)
 {
     return out << "depth " << s.depth << ", coverage " << static_cast<int>(s.coverage) << ", merge "
                << static_cast<int>(s.merge) << ", attributes " << s.attributes << ", emits " << s.emits << ", static "
-               << s.has_static << ", compressed " << s.compressed << ", minimal " << s.minimal_capacities << ", frames "
+               << s.has_static << ", compressed " << s.compressed << ", filled " << s.filled << ", minimal " << s.minimal_capacities << ", frames "
                << s.frames_in_flight << ", entries " << s.entries_max << ", " << s.shot;
 }
 
@@ -145,6 +145,7 @@ DeviceTree DynamicScenery::buildStatic(const DynamicSetting& setting) const
     build.coverage = setting.coverage;
     build.attributes = setting.attributes;
     build.keep_sums = setting.attributes && setting.merge == MergeRule::Average;
+    build.fill = setting.filled ? Fill::Solid : Fill::None;
     const GpuScene uploaded = upload(setting.has_static ? m_static : Scene{}, setting.attributes);
     BuildResult built = buildOctree(m_device, uploaded, setting.grid(), build);
     return setting.compressed ? compress(m_device, std::move(built.octree)).dag : std::move(built.octree);

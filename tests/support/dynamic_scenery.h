@@ -67,6 +67,7 @@ struct DynamicSetting
     bool emits = true;
     bool has_static = true;
     bool compressed = false; // the static part is a DAG
+    bool filled = false;     // it is filled; not with compressed
     bool minimal_capacities = false;
     std::uint32_t frames_in_flight = 2;
     std::uint32_t entries_max = 16;

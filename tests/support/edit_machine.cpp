@@ -35,7 +35,7 @@ EditMachine::EditMachine(vk::HeadlessDevice& device, const DynamicSetting& setti
     DynamicOptions options = setting.options(scenery.emissionScale());
     options.edits = bounds;
     m_octree = std::make_unique<DynamicOctree>(device, scenery.buildStatic(setting), options);
-    m_line.emplace_back(setting.grid(), cellsOf(device, m_octree->tree()), setting.attributes);
+    m_line.emplace_back(setting.grid(), cellsOf(device, m_octree->tree()), setting.attributes, setting.filled);
 }
 
 void EditMachine::run(const Command& command)
@@ -339,7 +339,7 @@ void EditMachine::compareCopy()
             ++count;
             const std::optional<ClipVoxel>& copied = clip.at(cell);
             RC_ASSERT(copied.has_value());
-            const gpu::Attribute look = m_setting.attributes ? voxel.attribute : gpu::Attribute{0, gpu::kNoNormal};
+            const gpu::Attribute look = m_setting.attributes ? model().lookOf(voxel) : gpu::Attribute{0, gpu::kNoNormal};
             RC_ASSERT((*copied == ClipVoxel{look, voxel.emission}));
         }
     }

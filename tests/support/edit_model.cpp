@@ -127,6 +127,11 @@ glm::ivec3 outwards(const Brush& brush, const glm::ivec3& voxel)
     return direction;
 }
 
+bool isInside(const gpu::Attribute& attribute)
+{
+    return attribute.color == kInside.color && attribute.normal == kInside.normal;
+}
+
 // The voxel of a stamp's leaf; nothing if it has none. code: of the voxel in its leaf.
 std::optional<Cell> stamped(const Stamp& stamp, const glm::ivec3& voxel, std::uint32_t code)
 {
@@ -148,14 +153,164 @@ std::optional<Cell> stamped(const Stamp& stamp, const glm::ivec3& voxel, std::ui
 
 } // namespace
 
-EditModel::EditModel(const Grid& grid, const std::vector<Cell>& cells, bool attributes)
-    : m_grid(grid), m_attributes(attributes)
+EditModel::EditModel(const Grid& grid, const std::vector<Cell>& cells, bool attributes, bool filled)
+    : m_grid(grid), m_attributes(attributes), m_filled(filled && attributes)
 {
     for (const Cell& cell : cells)
     {
         if (cell.level == grid.nodeLevels())
         {
             m_voxels[cell.code] = cell;
+        }
+        else if (m_filled && !isInside(cell.attribute))
+        {
+            m_nodes[{cell.level, cell.code}] = cell.attribute;
+        }
+    }
+}
+
+gpu::Attribute EditModel::lookAround(std::uint32_t level, std::uint64_t code, const Nodes& nodes) const
+{
+    for (; !nodes.contains({level, code}); --level, code >>= 6)
+    {
+    }
+    return {nodes.at({level, code}).color & 0xFFFFFFU, gpu::kNoNormal};
+}
+
+gpu::Attribute EditModel::lookOf(const Cell& voxel) const
+{
+    return isInside(voxel.attribute) ? lookAround(m_grid.nodeLevels() - 1, voxel.code >> 6, m_nodes) : voxel.attribute;
+}
+
+bool EditModel::isAnythingBelow(std::uint32_t level, std::uint64_t code) const
+{
+    const std::uint32_t shift = 6 * (m_grid.nodeLevels() - level);
+    const auto found = m_voxels.lower_bound(code << shift);
+    return found != m_voxels.end() && found->first >> shift == code;
+}
+
+// Gives what is inside of changed leaves attributes, and the nodes above those of their children.
+void EditModel::changeLeaves(const Leaves& changed)
+{
+    m_changed.insert(changed.begin(), changed.end());
+    if (!m_filled)
+    {
+        return;
+    }
+    const Nodes before = m_nodes;
+    Leaves nodes = changed;
+    for (std::uint32_t level = m_grid.nodeLevels(); level-- > 0;)
+    {
+        Leaves parents;
+        for (const std::uint64_t code : nodes)
+        {
+            Mean mean;
+            for (std::uint64_t child = code << 6; child < (code + 1) << 6; ++child)
+            {
+                if (!isAnythingBelow(level + 1, child))
+                {
+                    continue;
+                }
+                const bool is_voxel = level + 1 == m_grid.nodeLevels();
+                gpu::Attribute& look = is_voxel ? m_voxels.at(child).attribute
+                                                : m_nodes.try_emplace({level + 1, child}, kInside).first->second;
+                look = isInside(look) ? lookAround(level, code, before) : look;
+                mean.add(look);
+            }
+            m_nodes[{level, code}] = mean.attribute();
+            if (!isAnythingBelow(level, code) && level != 0)
+            {
+                m_nodes.erase({level, code});
+            }
+            parents.insert(code >> 6);
+        }
+        nodes = std::move(parents);
+    }
+}
+
+// Whether a brush that carves comes close to a leaf: to a voxel of it or, with a stamp, into the leaf or a neighbour.
+bool EditModel::isClose(const Brush& brush, const VoxelBox& box, std::uint64_t code) const
+{
+    const glm::ivec3 voxel(oracle::mortonDecode(code));
+    if (brush.stamp == nullptr)
+    {
+        const double length = glm::length(glm::dvec3(voxel - brush.center));
+        return VoxelBox{box.lo - 1, box.hi + 1}.contains(voxel) &&
+               (brush.shape == BrushShape::Box || length < brush.radius + 1.5);
+    }
+    // A dab looks at the leaves that its box, a voxel larger, touches.
+    const auto last = static_cast<int>(m_grid.resolution()) - 1;
+    const VoxelBox leaves = {glm::max(box.lo - 1, glm::ivec3(0)) / 4, glm::min(box.hi + 1, glm::ivec3(last)) / 4};
+    const auto isStamped = [&](const glm::ivec3& leaf)
+    {
+        bool has_voxels = false;
+        for (std::uint32_t i = 0; i < 64 && leaves.contains(leaf); ++i)
+        {
+            const glm::ivec3 at = 4 * leaf + glm::ivec3(oracle::mortonDecode(i));
+            has_voxels = has_voxels || stamped(*brush.stamp, at, i);
+        }
+        return has_voxels;
+    };
+    const glm::ivec3 leaf = voxel / 4;
+    bool is_close = isStamped(leaf);
+    for (glm::length_t axis = 0; axis < 3; ++axis)
+    {
+        glm::ivec3 step(0);
+        step[axis] = 1;
+        is_close = is_close || isStamped(leaf + step) || isStamped(leaf - step);
+    }
+    return is_close && leaves.contains(leaf);
+}
+
+// The direction that a voxel faces where a brush that carves takes a neighbour of it by a face: to the brush, or against
+// the normals of what a stamp takes.
+glm::ivec3 EditModel::bareNormal(const Brush& brush, const VoxelBox& box, const glm::ivec3& voxel)
+{
+    bool is_bare = false;
+    glm::ivec3 taken(0);
+    for (int side = 0; side < 6; ++side)
+    {
+        glm::ivec3 beside = voxel;
+        beside[side / 2] += side % 2 == 0 ? -1 : 1;
+        if (!box.contains(beside))
+        {
+            continue;
+        }
+        if (brush.stamp == nullptr)
+        {
+            is_bare = is_bare || isUnder(brush, beside);
+        }
+        else if (const auto look = stamped(*brush.stamp, beside, oracle::mortonEncode(glm::uvec3(beside)) & 63U))
+        {
+            taken += unfolded(look->attribute.normal);
+        }
+    }
+    return brush.stamp != nullptr ? -taken : is_bare ? -outwards(brush, voxel) : glm::ivec3(0);
+}
+
+// Of a filled tree, what a brush that carves lays bare changes, too. Leaves that it comes close to, and that have voxels
+// without attributes or that a brush has changed before, count as changed.
+void EditModel::layBare(const Brush& brush, const VoxelBox& box, Leaves& changed)
+{
+    Leaves bared;
+    for (const auto& [code, cell] : m_voxels)
+    {
+        if ((isInside(cell.attribute) || m_changed.contains(code >> 6)) && isClose(brush, box, code))
+        {
+            bared.insert(code >> 6);
+        }
+    }
+    changed.merge(bared);
+    for (const std::uint64_t leaf : changed)
+    {
+        const auto end = m_voxels.lower_bound((leaf + 1) << 6);
+        for (auto at = m_voxels.lower_bound(leaf << 6); at != end; ++at)
+        {
+            const glm::ivec3 normal = bareNormal(brush, box, glm::ivec3(oracle::mortonDecode(at->first)));
+            if (at->second.attribute.normal == gpu::kNoNormal && normal != glm::ivec3(0))
+            {
+                at->second.attribute = {lookOf(at->second).color, normalCode(normal)};
+            }
         }
     }
 }
@@ -164,24 +319,35 @@ void EditModel::apply(const Brush& brush, bool emits)
 {
     const auto resolution = static_cast<int>(m_grid.resolution());
     const Ends ends = brush.stamp != nullptr ? Ends{brush.stamp->box.lo, brush.stamp->box.hi} : endsOf(brush);
-    const glm::ivec3 lo = glm::max(ends.lo, glm::ivec3(0));
-    const glm::ivec3 hi = glm::min(ends.hi, glm::ivec3(resolution - 1));
+    VoxelBox box = {glm::max(ends.lo, glm::ivec3(0)), glm::min(ends.hi, glm::ivec3(resolution - 1))};
+    if (brush.part)
+    {
+        box = box.within(*brush.part);
+    }
+    if (box.isEmpty())
+    {
+        return;
+    }
+    const auto& [lo, hi] = box;
+    Leaves changed;
     for (int z = lo.z; z <= hi.z; ++z)
     {
         for (int y = lo.y; y <= hi.y; ++y)
         {
             for (int x = lo.x; x <= hi.x; ++x)
             {
-                if (!brush.part || brush.part->contains({x, y, z}))
-                {
-                    apply(brush, {x, y, z}, emits);
-                }
+                apply(brush, {x, y, z}, emits, changed);
             }
         }
     }
+    if (m_filled && brush.action == BrushAction::Carve)
+    {
+        layBare(brush, box, changed);
+    }
+    changeLeaves(changed);
 }
 
-void EditModel::apply(const Brush& brush, const glm::ivec3& voxel, bool emits)
+void EditModel::apply(const Brush& brush, const glm::ivec3& voxel, bool emits, Leaves& changed)
 {
     // kEmission in RGB9E5, by hand: its exponent is 17, so a mantissa of 128 is 1.
     const std::uint32_t emission = emits && brush.emission == kEmission ? 256U | 64U << 9 | 32U << 18 | 17U << 27 : 0U;
@@ -222,7 +388,7 @@ void EditModel::apply(const Brush& brush, const glm::ivec3& voxel, bool emits)
             cell.attribute = {color, is_there ? cell.attribute.normal : made};
         }
     }
-    m_changed.insert(code >> 6);
+    changed.insert(code >> 6);
 }
 
 EditModel EditModel::merged(MergeRule rule, const std::vector<Cell>& moving, const std::vector<Cell>& all) const
@@ -230,14 +396,17 @@ EditModel EditModel::merged(MergeRule rule, const std::vector<Cell>& moving, con
     const EditModel objects(m_grid, moving, m_attributes);
     const EditModel unedited(m_grid, all, m_attributes);
     EditModel merged = *this;
+    Leaves touched;
     for (const auto& [code, voxel] : objects.m_voxels)
     {
+        touched.insert(code >> 6);
         const bool is_mean = rule == MergeRule::Average && !m_changed.contains(code >> 6);
         if (rule != MergeRule::StaticWins || !has(code))
         {
             merged.m_voxels[code] = is_mean ? unedited.m_voxels.at(code) : voxel;
         }
     }
+    merged.changeLeaves(touched);
     return merged;
 }
 
@@ -264,7 +433,8 @@ std::vector<Cell> EditModel::cells() const
         }
         for (std::size_t i = 0; i < above.size() && m_attributes; ++i)
         {
-            above[i].attribute = means[i].attribute();
+            const auto kept = m_nodes.find({number, above[i].code});
+            above[i].attribute = !m_filled ? means[i].attribute() : kept != m_nodes.end() ? kept->second : kInside;
         }
         all.insert(all.begin(), above.begin(), above.end());
         level = std::move(above);

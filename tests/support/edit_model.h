@@ -4,12 +4,14 @@
 
 #include "core/base/grid.h"
 #include "core/edit/brush.h"
+#include "core/edit/voxel_box.h"
 #include "support/octree_contents.h"
 #include "zvo/types.h"
 
 #include <cstdint>
 #include <map>
 #include <set>
+#include <utility>
 #include <vector>
 
 namespace zvo::test
@@ -19,8 +21,8 @@ namespace zvo::test
 class EditModel
 {
 public:
-    /// cells: as cellsOf() lists them.
-    EditModel(const Grid& grid, const std::vector<Cell>& cells, bool attributes);
+    /// cells: as cellsOf() lists them. filled: of a filled tree.
+    EditModel(const Grid& grid, const std::vector<Cell>& cells, bool attributes, bool filled = false);
 
     /// The emission that some brushes have, over the tree's emission scale.
     static constexpr gpu::vec3 kEmission{2.0F, 0.5F, 0.25F};
@@ -37,16 +39,30 @@ public:
     [[nodiscard]] const std::map<std::uint64_t, Cell>& voxels() const { return m_voxels; } // by code
     [[nodiscard]] bool has(std::uint64_t code) const { return m_voxels.contains(code); }
 
+    /// What a voxel looks like where it is copied: what is inside, like the lowest node around it with attributes.
+    [[nodiscard]] gpu::Attribute lookOf(const Cell& voxel) const;
+
     /// Lists voxels and all nodes above, as cellsOf() does; a node has the mean of its children.
     [[nodiscard]] std::vector<Cell> cells() const;
 
 private:
-    void apply(const Brush& brush, const glm::ivec3& voxel, bool emits);
+    using Nodes = std::map<std::pair<std::uint32_t, std::uint64_t>, gpu::Attribute>;
+    using Leaves = std::set<std::uint64_t>;
+
+    void apply(const Brush& brush, const glm::ivec3& voxel, bool emits, Leaves& changed);
+    void layBare(const Brush& brush, const VoxelBox& box, Leaves& changed);
+    [[nodiscard]] bool isClose(const Brush& brush, const VoxelBox& box, std::uint64_t code) const;
+    static glm::ivec3 bareNormal(const Brush& brush, const VoxelBox& box, const glm::ivec3& voxel);
+    void changeLeaves(const Leaves& changed);
+    [[nodiscard]] gpu::Attribute lookAround(std::uint32_t level, std::uint64_t code, const Nodes& nodes) const;
+    [[nodiscard]] bool isAnythingBelow(std::uint32_t level, std::uint64_t code) const;
 
     Grid m_grid;
     bool m_attributes;
+    bool m_filled;
+    Nodes m_nodes; // of a filled tree: those that have attributes, by level and code
     std::map<std::uint64_t, Cell> m_voxels; // by code
-    std::set<std::uint64_t> m_changed;      // codes of the leaves that brushes have changed
+    Leaves m_changed;                       // codes of the leaves that brushes have changed
 };
 
 } // namespace zvo::test

@@ -20,6 +20,11 @@ std::string describe(const Cell& cell)
                        cell.attribute.color, cell.attribute.normal, cell.emission);
 }
 
+bool isSet(const gpu::Node& node, std::uint32_t c)
+{
+    return ((c < 32 ? node.mask_lo : node.mask_hi) >> (c & 31U) & 1U) != 0;
+}
+
 // Sets a child of node. Calls must come in the order of the children.
 void addChild(gpu::Node& node, std::uint32_t c, std::uint32_t number)
 {
@@ -57,12 +62,17 @@ public:
           m_emission_words(device.download(tree.emission_words)), m_emission(device.download(tree.emission))
     {
         m_attribute_offset = tree.hasOverlays() ? tree.attributeOffset() : 0;
+        const std::vector<gpu::uvec2> leaf_groups = device.download(tree.leaf_groups);
+        const std::uint32_t to_surface = tree.filled ? 2 * leaf_groups.at(1).x : 0;
         std::uint32_t voxels = 0;
-        for (std::uint32_t word = 2 * m_inner_count; word < tree.nodeWords(); ++word)
+        for (std::uint32_t word = 2 * m_inner_count; word < 2 * m_inner_count + tree.leaf_words; ++word)
         {
             const gpu::uvec2 mask = wordAt(word);
-            m_leaves.push_back({mask.x, voxels, mask.y, voxels + static_cast<std::uint32_t>(std::popcount(mask.x))});
-            voxels += tree.isDag() ? 0 : static_cast<std::uint32_t>(std::popcount(mask.x) + std::popcount(mask.y));
+            const gpu::uvec2 surface = wordAt(word + to_surface);
+            const auto low_count = static_cast<std::uint32_t>(std::popcount(surface.x));
+            m_leaves.push_back({mask.x, voxels, mask.y, voxels + low_count});
+            m_surfaces.push_back({surface.x, voxels, surface.y, voxels + low_count});
+            voxels += tree.isDag() ? 0 : low_count + static_cast<std::uint32_t>(std::popcount(surface.y));
         }
         if (!tree.isDag())
         {
@@ -83,11 +93,15 @@ public:
 
     [[nodiscard]] const gpu::Node& node(const NodeOnPath& place) const
     {
-        return isLeafWord(place) ? m_leaves.at(leafOf(place)) : m_nodes.at(place.node);
+        return isLeafWord(place) ? m_leaves.at(leafOf(place)) : m_nodes.at(place.node & ~gpu::kFullNodes);
     }
 
     [[nodiscard]] gpu::Attribute average(const NodeOnPath& place) const
     {
+        if (isFull(place.node))
+        {
+            return m_averages.empty() ? gpu::Attribute{} : kInside;
+        }
         const bool is_static = place.node < m_inner_count;
         const std::uint32_t own =
             isLeafWord(place) ? m_inner_count + leafOf(place) : place.node + (is_static ? 0 : m_attribute_offset);
@@ -100,7 +114,7 @@ public:
         NodeOnPath child;
         child.code = parent.code << 6 | c;
         child.node = named(parent, c);
-        if ((child.node & gpu::kChildList) != 0)
+        if (m_entries_per_word != 0 && (child.node & gpu::kChildList) != 0)
         {
             const std::uint64_t place = child.node & ~gpu::kListFlags;
             child.rank = rankAt(parent, place, level);
@@ -114,10 +128,12 @@ public:
     [[nodiscard]] Cell voxel(const NodeOnPath& leaf, std::uint32_t c) const
     {
         Cell cell = {m_levels, leaf.code << 6 | c, {}, 0};
-        const std::uint32_t voxel = named(leaf, c) + (leaf.listed ? leaf.rank.voxels : 0);
+        const gpu::Node& surface = surfaceOf(leaf);
+        const bool is_inside = !isSet(surface, c);
+        const std::uint32_t voxel = namedBy(surface, c) + (leaf.listed ? leaf.rank.voxels : 0);
         if (!m_attributes.empty())
         {
-            cell.attribute = m_attributes.at(voxel);
+            cell.attribute = is_inside ? kInside : m_attributes.at(voxel);
         }
         if (((cell.attribute.color >> 24) & gpu::kAttributeEmissive) != 0)
         {
@@ -140,10 +156,35 @@ private:
         return word % 2 == 0 ? gpu::uvec2(pair.mask_lo, pair.base_lo) : gpu::uvec2(pair.mask_hi, pair.base_hi);
     }
 
+    [[nodiscard]] bool isFull(std::uint32_t reference) const
+    {
+        return m_entries_per_word == 0 && (reference & gpu::kFullNodes) != 0;
+    }
+
+    // The voxels of a leaf that have attributes.
+    [[nodiscard]] const gpu::Node& surfaceOf(const NodeOnPath& leaf) const
+    {
+        static constexpr gpu::Node kNone{};
+        NodeOnPath named = leaf;
+        if (!isLeafWord(leaf) && isFull(node(leaf).base_lo)) // of an overlay, or a full node
+        {
+            named.node = node(leaf).base_lo & ~gpu::kFullNodes;
+            if (!isLeafWord(named))
+            {
+                return kNone;
+            }
+        }
+        return isLeafWord(named) ? m_surfaces.at(leafOf(named)) : node(named);
+    }
+
     // The child's number that the node's bases give for cell c: base + children before it.
     [[nodiscard]] std::uint32_t named(const NodeOnPath& place, std::uint32_t c) const
     {
-        const gpu::Node& n = node(place);
+        return namedBy(node(place), c);
+    }
+
+    static std::uint32_t namedBy(const gpu::Node& n, std::uint32_t c)
+    {
         const std::uint32_t below = (c < 32 ? n.mask_lo : n.mask_hi) & ((1U << (c & 31U)) - 1);
         return (c < 32 ? n.base_lo : n.base_hi) + static_cast<std::uint32_t>(std::popcount(below));
     }
@@ -173,7 +214,8 @@ private:
     std::uint32_t m_levels;
     std::vector<gpu::Node> m_nodes;
     std::uint32_t m_inner_count;
-    std::vector<gpu::Node> m_leaves; // the leaf words as nodes
+    std::vector<gpu::Node> m_leaves;   // the leaf words as nodes
+    std::vector<gpu::Node> m_surfaces; // their voxels that have attributes
     std::vector<gpu::Attribute> m_attributes;
     std::vector<gpu::Attribute> m_averages;
     std::vector<gpu::uvec2> m_emission_words;
@@ -187,11 +229,6 @@ private:
     std::uint32_t m_first_overlay_node = 0;
     std::uint32_t m_attribute_offset = 0;
 };
-
-bool isSet(const gpu::Node& node, std::uint32_t c)
-{
-    return ((c < 32 ? node.mask_lo : node.mask_hi) >> (c & 31U) & 1U) != 0;
-}
 
 } // namespace
 

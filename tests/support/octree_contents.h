@@ -26,8 +26,12 @@ struct Cell
     }
 };
 
+/// Stands for the attributes of what is inside of a filled tree, and has none.
+inline constexpr gpu::Attribute kInside{gpu::kAttributeNone << 24, gpu::kNoNormal};
+
 /// Lists everything below nodes[0], level by level in Morton order. It follows bases and lists as the traversal does;
-/// below lists, attributes are found by the ranks along the path. Attributes and emission are 0 if tree has none.
+/// below lists, attributes are found by the ranks along the path. Attributes and emission are 0 if tree has none. Of a
+/// filled tree, voxels without attributes and what is below full nodes have kInside.
 /// Throws std::out_of_range if a reference leads out of a buffer.
 std::vector<Cell> cellsOf(vk::HeadlessDevice& device, const DeviceTree& tree);
 

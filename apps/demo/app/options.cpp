@@ -170,6 +170,7 @@ std::optional<DemoOptions> parseCommandLine(int argc, const char* const* argv)
     DemoOptions options;
     cli::addVoxelOptions(app, options.voxels, "; or one .zvo or .vox file");
     app.get_option("SCENE")->required(false);
+    cli::addFillOption(app, options.voxels.fill);
     cli::addAttributesOption(app, options.voxels.attributes);
     cli::addStructureOption(app, options.structure, "what stands still is an octree or a DAG (default svo)");
     addViewOptions(app, options);

@@ -16,6 +16,7 @@ constexpr std::uint32_t kDepthMin = 5;
 constexpr std::uint32_t kDepthMax = 12;
 constexpr std::array<const char*, 2> kStructureNames = {"octree", "DAG"};
 constexpr std::array<const char*, 2> kCoverageNames = {"thin", "conservative"};
+constexpr std::array<const char*, 3> kFillNames = {"nothing", "what is enclosed", "what is enclosed oddly"}; // by Fill
 
 // 0 is none, as a scene file's own grid is used then.
 void setMargin(cli::VoxelOptions& options, std::uint32_t margin)
@@ -117,10 +118,18 @@ BuildAnswer buildPanel(const WorldOptions& options, const World& world, const Lo
         wanted.voxels.coverage = coverage == 0 ? Coverage::Thin : Coverage::Conservative;
         is_chosen = true;
     }
+    auto fill = static_cast<std::size_t>(options.voxels.fill);
+    if (chooseOne("filled", kFillNames, fill))
+    {
+        wanted.voxels.fill = static_cast<Fill>(fill);
+        wanted.structure = TreeStructure::Svo;
+        is_chosen = true;
+    }
     std::size_t structure = world.scene.tree().isDag() ? 1 : 0;
     if (chooseOne("structure", kStructureNames, structure))
     {
         wanted.structure = structure == 0 ? TreeStructure::Svo : TreeStructure::Svdag;
+        wanted.voxels.fill = structure == 0 ? wanted.voxels.fill : Fill::None;
         is_chosen = true;
     }
     if (is_chosen)

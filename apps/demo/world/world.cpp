@@ -59,7 +59,8 @@ LiveOptions liveOptions(const WorldOptions& options)
             options.structure.value_or(TreeStructure::Svo),
             options.frames_in_flight,
             true,
-            cli::talk};
+            cli::talk,
+            options.voxels.fill};
 }
 
 } // namespace
@@ -103,6 +104,7 @@ std::unique_ptr<World> World::make(vk::HeadlessDevice& device, const WorldOption
             const StaticInfo& fixed = world->scene.info().fixed;
             cli::warnOfDropped(fixed.voxel_count, fixed.dropped, counts, options.voxels.load.strict);
         }
+        cli::warnOfOpenLines(world->scene.info().fixed.open_lines, options.voxels.load.strict);
     }
     else if (!files.empty())
     {

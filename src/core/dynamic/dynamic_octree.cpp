@@ -28,7 +28,6 @@ DeviceTree& checked(DeviceTree& fixed, const DynamicOptions& options)
         throw Error(ErrorCode::Usage,
                     "dynamic objects can be merged only with attributes of 8 bytes: build the octree with them");
     }
-    requireUnfilled(fixed, "be merged with dynamic objects or edited");
     const bool averages = fixed.hasAttributes() && options.merge == MergeRule::Average;
     if (averages && fixed.sums.sums.count() != fixed.voxel_count)
     {

@@ -23,7 +23,7 @@ std::uint32_t levelCells(const gpu::EditBox& box, std::uint32_t level)
 
 } // namespace
 
-std::optional<DabExtent> DabExtent::of(const Brush& brush, const Grid& grid)
+std::optional<DabExtent> DabExtent::of(const Brush& brush, const Grid& grid, bool filled)
 {
     if (brush.radius > gpu::kBrushRadiusMax)
     {
@@ -53,6 +53,13 @@ std::optional<DabExtent> DabExtent::of(const Brush& brush, const Grid& grid)
         throw Error(ErrorCode::Usage, fmt::format("a dab is at most {} voxels long", gpu::kDabEdgeMax));
     }
     DabExtent extent;
+    extent.bares = filled && brush.action == BrushAction::Carve;
+    for (glm::length_t axis = 0; axis < 3 && extent.bares; ++axis)
+    {
+        extent.grown |= (lo[axis] != 0 ? 1U : 0U) << axis | (hi[axis] != last[axis] ? 8U : 0U) << axis;
+        lo[axis] -= lo[axis] != 0 ? 1 : 0;
+        hi[axis] += hi[axis] != last[axis] ? 1 : 0;
+    }
     extent.box = {gpu::uvec3(lo), gpu::uvec3(hi), grid.nodeLevels()};
     for (std::uint32_t level = 0; level < extent.box.level_count; ++level)
     {

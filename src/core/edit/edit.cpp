@@ -19,14 +19,14 @@ namespace zvo
 namespace
 {
 
-// tree: which is edited.
-gpu::Brush gpuBrush(const Brush& brush, const DeviceTree& tree)
+// tree: which is edited. grown: sides, as DabExtent has them.
+gpu::Brush gpuBrush(const Brush& brush, const DeviceTree& tree, gpu::uint grown)
 {
     const VoxelBox box = brush.box();
     const auto shape = static_cast<gpu::uint>(brush.stamp != nullptr ? BrushShape::Box : brush.shape);
     const auto action = static_cast<gpu::uint>(brush.action);
     const bool emits = tree.emission_words.count() != 0 && brush.emission != gpu::vec3(0.0F);
-    return {box.lo, box.hi, shape | action << gpu::kBrushActionShift,
+    return {box.lo, box.hi, shape | action << gpu::kBrushActionShift | grown << gpu::kBrushGrownShift,
             (brush.color & kColorMask) | (emits ? gpu::kAttributeEmissive << 24U : 0U),
             emits ? encodeRgb9e5(brush.emission / tree.emission_scale) : 0U};
 }
@@ -37,19 +37,20 @@ gpu::Ptr<gpu::BeforeChild> ranksOf(vk::AnyPass& pass, DeviceTree& tree)
 }
 
 // Finds the cells of a dab, and what it does to leaves. stamp: empty without one.
-void recordFind(vk::FrameGraph& graph, const DeviceTree& tree, const gpu::EditSlots& slots, const gpu::Brush& brush,
+void recordFind(vk::FrameGraph& graph, const DeviceTree& tree, std::uint32_t root, const gpu::Brush& brush,
                 const DabExtent& extent, const vk::BufferOf<gpu::uint>& stamp, DabBuffers& buffers)
 {
     vk::Pass pass = graph.addPass(gpu::edit::Find{.entries_per_word = tree.entriesPerWord(),
                                                   .attributes = tree.hasNodeAttributes(),
-                                                  .stamp = stamp.count() != 0});
+                                                  .stamp = stamp.count() != 0,
+                                                  .bares = extent.bares});
     gpu::EditFindParams params{};
     params.nodes = pass.read(tree.nodes);
     readRankSource(pass, tree, params);
     params.ranks = {pass.read(tree.overlays.ranks).address - tree.overlays.ranksSkipped()};
     params.cells = pass.write(buffers.cells);
     params.stamp = pass.read(stamp);
-    params.slots = slots;
+    params.root = root;
     params.brush = brush;
     params.box = extent.box;
     pass.dispatch(extent.cell_count, params);
@@ -63,7 +64,7 @@ void recordNodes(vk::FrameGraph& graph, EditSite& site, const gpu::Brush& brush,
     const gpu::EditSlots slots = {site.region.first_node, dab.from, dab.to};
     const bool attributes = tree.hasNodeAttributes();
     const bool emits = tree.emission_words.count() != 0;
-    recordFind(graph, tree, slots, brush, extent, stamp, buffers);
+    recordFind(graph, tree, slots.region_node + slots.from, brush, extent, stamp, buffers);
     {
         const std::uint32_t threads = loneGroupOn(graph.device());
         vk::Pass pass = graph.addPass(gpu::edit::Allocate{.attributes = attributes, .local_size_x = threads});
@@ -105,7 +106,7 @@ void recordVoxelPass(vk::FrameGraph& graph, const Kernel& kernel, EditSite& site
 {
     vk::Pass pass = graph.addPass(kernel);
     pass.dispatch(std::uint64_t{extent.leafCount()} * gpu::kEditGroup,
-                  {.nodes = pass.read(site.tree.nodes),
+                  {.node_attributes = pass.read(site.tree.node_attributes),
                    .cells = pass.read(buffers.cells),
                    .states = pass.read(site.states),
                    .attributes = pass.readWrite(site.tree.voxel_attributes),
@@ -158,8 +159,8 @@ void recordAttributes(vk::FrameGraph& graph, EditSite& site, const gpu::Brush& b
 {
     const bool emits = site.tree.emission_words.count() != 0;
     const bool has_stamp = stamp.count() != 0;
-    recordVoxelPass(graph, gpu::edit::Voxels{.emits = emits, .stamp = has_stamp}, site, brush, extent, slots.to, stamp,
-                    buffers);
+    recordVoxelPass(graph, gpu::edit::Voxels{.emits = emits, .stamp = has_stamp, .bares = extent.bares}, site, brush,
+                    extent, slots.to, stamp, buffers);
     if (emits)
     {
         recordVoxelPass(graph, gpu::edit::Emission{.stamp = has_stamp}, site, brush, extent, slots.to, stamp, buffers);
@@ -262,14 +263,14 @@ void beginEdits(vk::FrameGraph& graph, EditSite& site)
                       .attribute_offset = tree.attributeOffset(),
                       .node_top = site.region.first_node + site.slotCount(),
                       .voxel_top = site.region.first_voxel,
-                      .voxel_count = tree.voxel_count});
+                      .voxel_count = static_cast<std::uint32_t>(tree.occupiedCount())});
 }
 
 void recordDab(vk::FrameGraph& graph, EditSite& site, const Brush& brush, const DabExtent& extent,
                const DabSlots& slots, const vk::BufferOf<gpu::SceneView>& tables, const vk::BufferOf<gpu::uint>& stamp,
                DabBuffers& buffers)
 {
-    const gpu::Brush dab = gpuBrush(brush, site.tree);
+    const gpu::Brush dab = gpuBrush(brush, site.tree, extent.grown);
     recordNodes(graph, site, dab, extent, slots, stamp, buffers);
     if (site.tree.hasNodeAttributes())
     {
@@ -282,12 +283,12 @@ void recordCopy(vk::FrameGraph& graph, const DeviceTree& tree, std::uint32_t roo
 {
     const gpu::Brush everything = {gpu::ivec3(extent.box.lo), gpu::ivec3(extent.box.hi),
                                    gpu::kBrushBox | gpu::kBrushPaint << gpu::kBrushActionShift, 0, 0};
-    recordFind(graph, tree, {root, 0, 0}, everything, extent, {}, buffers);
+    recordFind(graph, tree, root, everything, extent, {}, buffers);
     graph.fill(words, 0);
     vk::Pass pass = graph.addPass(
         gpu::edit::Copy{.attributes = tree.hasNodeAttributes(), .emits = tree.emission_words.count() != 0});
     pass.dispatch(std::uint64_t{extent.leafCount()} * gpu::kEditGroup,
-                  {.nodes = pass.read(tree.nodes),
+                  {.node_attributes = pass.read(tree.node_attributes),
                    .cells = pass.read(buffers.cells),
                    .attributes = pass.read(tree.voxel_attributes),
                    .emission_words = pass.read(tree.emission_words),

@@ -23,10 +23,13 @@ struct DabExtent
     std::uint32_t inner_count = 0; // those above the leaves
     std::uint32_t node_bound = 0;  // nodes that the dab's copies take at most
     std::uint32_t voxel_bound = 0; // voxels of the changed leaves at most, alignment included
+    bool bares = false;            // a filled tree is carved: the box has a voxel more on the sides that `grown` says
+    gpu::uint grown = 0;           // bits of gpu::Brush::kind, from gpu::kBrushGrownShift on
 
-    /// The extent of a dab. Nothing where the brush does not reach the grid. Throws Error{Usage} for a radius above
-    /// kBrushRadiusMax, and for more than gpu::kDabEdgeMax voxels along an axis.
-    static std::optional<DabExtent> of(const Brush& brush, const Grid& grid);
+    /// The extent of a dab. filled: voxels of the tree are inside, and have no attributes until they are laid bare.
+    /// Nothing where the brush does not reach the grid. Throws Error{Usage} for a radius above kBrushRadiusMax, and for
+    /// more than gpu::kDabEdgeMax voxels along an axis.
+    static std::optional<DabExtent> of(const Brush& brush, const Grid& grid, bool filled = false);
 
     [[nodiscard]] std::uint32_t leafCount() const { return cell_count - inner_count; }
 };

@@ -39,18 +39,23 @@ vk::BufferOf<gpu::uint> stampFor(vk::Device& device, const Brush& brush, const D
     }
     vk::BufferOf<gpu::uint> buffer(device, "edit/stamp", std::uint64_t{extent.leafCount()} * gpu::kStampWords,
                                    vk::MemoryKind::Upload);
-    const glm::ivec3 stamp_lo = brush.stamp->box.lo / kLeafEdge;
-    const glm::ivec3 stamp_size = brush.stamp->box.hi / kLeafEdge - stamp_lo + 1;
-    const glm::ivec3 lo = glm::ivec3(extent.box.lo) / kLeafEdge - stamp_lo;
-    const glm::ivec3 hi = glm::ivec3(extent.box.hi) / kLeafEdge - stamp_lo;
-    gpu::uint* to = buffer.mappedData();
-    for (int z = lo.z; z <= hi.z; ++z)
+    const VoxelBox stamp = {brush.stamp->box.lo / kLeafEdge, brush.stamp->box.hi / kLeafEdge}; // in leaves
+    const VoxelBox leaves = {glm::ivec3(extent.box.lo) / kLeafEdge, glm::ivec3(extent.box.hi) / kLeafEdge};
+    const VoxelBox both = leaves.within(stamp);
+    std::fill_n(buffer.mappedData(), buffer.count(), 0U);
+    const auto leafNumber = [](const VoxelBox& box, const glm::ivec3& leaf)
     {
-        for (int y = lo.y; y <= hi.y; ++y)
+        const glm::ivec3 at = leaf - box.lo;
+        return at.x + std::int64_t{box.size().x} * (at.y + std::int64_t{box.size().y} * at.z);
+    };
+    for (int z = both.lo.z; z <= both.hi.z; ++z)
+    {
+        for (int y = both.lo.y; y <= both.hi.y; ++y)
         {
-            const std::int64_t first = lo.x + std::int64_t{stamp_size.x} * (y + std::int64_t{stamp_size.y} * z);
-            to = std::copy_n(brush.stamp->words.begin() + first * gpu::kStampWords,
-                             std::int64_t{hi.x - lo.x + 1} * gpu::kStampWords, to);
+            const glm::ivec3 first(both.lo.x, y, z);
+            std::copy_n(brush.stamp->words.begin() + leafNumber(stamp, first) * gpu::kStampWords,
+                        std::int64_t{both.size().x} * gpu::kStampWords,
+                        buffer.mappedData() + leafNumber(leaves, first) * gpu::kStampWords);
         }
     }
     return buffer;
@@ -90,12 +95,14 @@ std::uint64_t Edits::shownBytes() const
 
 std::uint32_t Edits::voxelCount() const
 {
-    return m_now.region ? m_now.history.top(m_now.history.slot()).voxel_count : m_overlays.tree().voxel_count;
+    return m_now.region ? m_now.history.top(m_now.history.slot()).voxel_count
+                        : static_cast<std::uint32_t>(m_overlays.tree().occupiedCount());
 }
 
 bool Edits::dab(vk::FrameGraph& graph, const Brush& brush, const vk::BufferOf<gpu::SceneView>& tables)
 {
-    const std::optional<DabExtent> extent = DabExtent::of(brush, m_overlays.tree().grid);
+    const DeviceTree& tree = m_overlays.tree();
+    const std::optional<DabExtent> extent = DabExtent::of(brush, tree.grid, tree.filled && m_overlays.hasAttributes());
     if (!extent)
     {
         return true;
@@ -201,7 +208,7 @@ void Edits::begin(vk::FrameGraph& graph, const DabExtent& extent)
     const std::uint64_t voxels = m_overlays.hasAttributes() ? kDabsAtFirst * extent.voxel_bound : 0;
     m_now.region = allocateRegion(graph, slots + kDabsAtFirst * extent.node_bound, voxels);
     EditTop top = m_now.history.top(0);
-    top.voxel_count = m_overlays.tree().voxel_count;
+    top.voxel_count = static_cast<std::uint32_t>(m_overlays.tree().occupiedCount());
     m_now.history.learn(0, top);
     EditSite where = site();
     beginEdits(graph, where);

@@ -70,7 +70,8 @@ public:
     /// bound.
     [[nodiscard]] std::uint64_t shownBytes() const;
 
-    /// Voxels of the edited tree, without dynamic objects. What a dab has changed counts once its frame is done.
+    /// Voxels of the edited tree, without dynamic objects, modulo 2^32. What a dab has changed counts once its frame is
+    /// done.
     [[nodiscard]] std::uint32_t voxelCount() const;
 
     void frameSubmitted() override;

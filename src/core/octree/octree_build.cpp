@@ -325,7 +325,7 @@ void makeLeafWords(vk::FrameGraph& graph, const DeviceTree& octree, const vk::Bu
                    .inner_count = first_leaf,
                    .leaf_count = leaf_count,
                    .first_parent = octree.levels[octree.levels.size() - 2].first_node,
-                   .attribute_offset = firstLeafGroup(first_leaf, leaf_count).y,
+                   .attribute_offset = firstLeafGroup(first_leaf, leaf_count, is_filled).y,
                    .first_full = is_filled ? firstFullNode(first_leaf, leaf_count) : 0U});
 }
 

@@ -343,11 +343,7 @@ void OctreeBuilder::addLeafWords(vk::FrameGraph& graph)
         const std::uint64_t inner_count = octree.node_count - leaf_words;
         const std::uint64_t group_count =
             gpu::kFirstLeafGroup + divideUp(2 * inner_count + leaf_words, gpu::kLeafGroup);
-        std::uint64_t pool_nodes = firstFullNode(inner_count, leaf_words);
-        if (m_form.fill != Fill::None)
-        {
-            pool_nodes += gpu::kFullNodeCount + divideUp(leaf_words, ListPacking::kWordsOfNode);
-        }
+        const std::uint64_t pool_nodes = poolNodes(inner_count, leaf_words, m_form.fill != Fill::None);
         m_device.memory().require(pool_nodes * sizeof(gpu::Node) + group_count * sizeof(gpu::uvec2), "the leaves");
         octree.leaf_groups = {m_device, "octree/leaf_groups", group_count};
         m_pool = {m_device, octree.nodes.name(), pool_nodes};

@@ -27,7 +27,7 @@ std::vector<gpu::uvec2> leafGroups(std::span<const gpu::Node> leaves, std::uint6
 {
     const std::size_t word_count = 2 * inner_count + leaves.size();
     const std::uint64_t surface = firstFullNode(inner_count, leaves.size()) + gpu::kFullNodeCount - inner_count;
-    std::vector<gpu::uvec2> groups = {firstLeafGroup(inner_count, leaves.size()),
+    std::vector<gpu::uvec2> groups = {firstLeafGroup(inner_count, leaves.size(), is_filled),
                                       {is_filled ? static_cast<gpu::uint>(surface) : 0U, 0U}};
     std::uint32_t voxels = 0;
     for (std::size_t first = 0; first < word_count; first += gpu::kLeafGroup)
@@ -96,10 +96,16 @@ std::uint32_t firstFullNode(std::uint64_t inner_count, std::uint64_t leaf_count)
     return static_cast<std::uint32_t>(divideUp(2 * inner_count + leaf_count, ListPacking::kWordsOfNode));
 }
 
-gpu::uvec2 firstLeafGroup(std::uint64_t inner_count, std::uint64_t leaf_count)
+std::uint64_t poolNodes(std::uint64_t inner_count, std::uint64_t leaf_count, bool filled)
 {
-    const std::uint64_t pool_nodes = firstFullNode(inner_count, leaf_count);
-    return {static_cast<gpu::uint>(inner_count), static_cast<gpu::uint>(inner_count + leaf_count - pool_nodes)};
+    const std::uint64_t behind_leaves = gpu::kFullNodeCount + divideUp(leaf_count, ListPacking::kWordsOfNode);
+    return firstFullNode(inner_count, leaf_count) + (filled ? behind_leaves : 0);
+}
+
+gpu::uvec2 firstLeafGroup(std::uint64_t inner_count, std::uint64_t leaf_count, bool filled)
+{
+    const std::uint64_t behind = poolNodes(inner_count, leaf_count, filled);
+    return {static_cast<gpu::uint>(inner_count), static_cast<gpu::uint>(inner_count + leaf_count - behind)};
 }
 
 TreePool poolOf(const TreeData& tree)

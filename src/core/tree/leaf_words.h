@@ -31,8 +31,11 @@ inline std::uint32_t leafWordsOf(std::span<const DeviceTree::Level> levels)
 /// The node from which full nodes stand in the pool of a filled tree, then surface masks (shaders/shared/octree.h).
 std::uint32_t firstFullNode(std::uint64_t inner_count, std::uint64_t leaf_count);
 
+/// Nodes of the pool of an octree, without room for overlays.
+std::uint64_t poolNodes(std::uint64_t inner_count, std::uint64_t leaf_count, bool filled);
+
 /// Element 0 of the leaf groups of an octree (shaders/shared/octree.h).
-gpu::uvec2 firstLeafGroup(std::uint64_t inner_count, std::uint64_t leaf_count);
+gpu::uvec2 firstLeafGroup(std::uint64_t inner_count, std::uint64_t leaf_count, bool filled);
 
 /// The pool of a tree that checkTree accepts: voxels are numbered in the order of the leaves.
 TreePool poolOf(const TreeData& tree);

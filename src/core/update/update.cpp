@@ -218,11 +218,13 @@ template <typename Kernel> void addMergePass(vk::FrameGraph& graph, const Update
     params.nodes = pass.read(job.tree.nodes);
     params.leaf_groups = pass.read(job.tree.leaf_groups);
     params.ranks = {pass.read(job.tree.overlays.ranks).address - job.tree.overlays.ranksSkipped()};
+    params.node_attributes = pass.read(job.tree.node_attributes);
     params.attributes = pass.readWrite(job.tree.voxel_attributes);
     params.emission_words = pass.readWrite(job.tree.emission_words);
     params.emission = pass.readWrite(job.tree.emission);
     params.state = pass.readWrite(buffers.state);
     params.sum_shift = job.sum_shift;
+    params.attribute_offset = job.tree.attributeOffset();
     pass.dispatchIndirect(buffers.args, gpu::kArgsMerge, params, buffers.bricks.count());
 }
 

@@ -123,7 +123,9 @@ DynamicSetting anySetting()
     setting.attributes = *rc::gen::weightedElement<bool>({{4, true}, {1, false}});
     setting.emits = setting.attributes && *rc::gen::arbitrary<bool>();
     setting.has_static = *rc::gen::weightedElement<bool>({{5, true}, {1, false}});
-    setting.compressed = setting.has_static && *rc::gen::arbitrary<bool>();
+    const auto kind = setting.has_static ? *anyBetween(0, 3) : 0;
+    setting.compressed = kind == 1;
+    setting.filled = kind == 2 && setting.depth >= 3 && setting.depth <= 6;
     setting.coverage = *rc::gen::element(Coverage::Thin, Coverage::Conservative);
     setting.merge =
         *rc::gen::element(MergeRule::Average, MergeRule::Average, MergeRule::DynamicWins, MergeRule::StaticWins);
