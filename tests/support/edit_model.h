@@ -60,7 +60,7 @@ private:
     Grid m_grid;
     bool m_attributes;
     bool m_filled;
-    Nodes m_nodes; // of a filled tree: those that have attributes, by level and code
+    Nodes m_nodes;                          // of a filled tree: those that have attributes, by level and code
     std::map<std::uint64_t, Cell> m_voxels; // by code
     Leaves m_changed;                       // codes of the leaves that brushes have changed
 };
