@@ -96,6 +96,17 @@ std::string treeFormatOf(const std::string& path)
     return std::ranges::find(kTreeFormats, format) != kTreeFormats.end() ? format : "";
 }
 
+std::string treeFormatFor(const std::string& path, const std::string& chosen)
+{
+    const std::string format = chosen.empty() ? treeFormatOf(path) : chosen;
+    if (format.empty())
+    {
+        throw Error(ErrorCode::Usage, fmt::format("-o {}: the format is not clear; name it .{}, or say --format", path,
+                                                  fmt::join(kTreeFormats, ", .")));
+    }
+    return format;
+}
+
 void warnOfLostEmission(const TreeData& tree, std::string_view format, bool strict)
 {
     if (!tree.emission.empty() && (format == "ply" || format == "morton" || format == "nvdb"))

@@ -17,6 +17,9 @@ inline constexpr std::array<std::string_view, 6> kTreeFormats = {"ply", "vox", "
 /// The kind of a file by its name; empty if that is none of kTreeFormats.
 std::string treeFormatOf(const std::string& path);
 
+/// The kind of a file by a choice, or by its name where that is empty. Throws Error{Usage} if that is none.
+std::string treeFormatFor(const std::string& path, const std::string& chosen);
+
 /// Reports emission that files of a kind do not have; strict: refuses that.
 void warnOfLostEmission(const TreeData& tree, std::string_view format, bool strict);
 

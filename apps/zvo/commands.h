@@ -134,6 +134,20 @@ struct ConvertOptions
 /// `zvo convert`: reads a tree or voxels and writes them as another kind of file. Throws Error.
 void convert(const ConvertOptions& options);
 
+struct EditOptions
+{
+    std::filesystem::path file;
+    std::filesystem::path script;
+    OutputOptions output;
+    std::string format;                     // empty: the output's extension says
+    std::optional<TreeStructure> structure; // of a .zvo output; not given: as the file, or what is filled, an octree
+    bool strict = false;                    // refuses to leave something out
+    DeviceOptions device;
+};
+
+/// `zvo edit`: carves, fills and paints voxels of a tree as a script says, and writes the result. Throws Error.
+void edit(const EditOptions& options);
+
 struct QueryOptions
 {
     std::filesystem::path file;

@@ -22,29 +22,9 @@
 namespace zvo::cli
 {
 
-namespace
-{
-
-std::string formatOf(const ConvertOptions& options)
-{
-    if (!options.format.empty())
-    {
-        return options.format;
-    }
-    const std::string format = treeFormatOf(options.output.path);
-    if (format.empty())
-    {
-        throw Error(ErrorCode::Usage, fmt::format("-o {}: the format is not clear; name it .{}, or say --format",
-                                                  options.output.path, fmt::join(kTreeFormats, ", .")));
-    }
-    return format;
-}
-
-} // namespace
-
 void convert(const ConvertOptions& options)
 {
-    const std::string format = formatOf(options);
+    const std::string format = treeFormatFor(options.output.path, options.format);
     checkPaths(options.output, std::span(&options.file, 1));
     Output output(options.output.path, options.output.overwrite);
     if (!isTreeFile(options.file))

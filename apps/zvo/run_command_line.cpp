@@ -93,6 +93,15 @@ Examples:
   zvo convert castle.vox -o castle.zvo
   zvo convert bunny.zvo -o - --format morton | sha256sum)";
 
+constexpr const char* kEditFooter = R"(
+Examples:
+  zvo build dragon.glb -o dragon.zvo --fill solid
+  zvo edit dragon.zvo cut.json -o cut.zvo
+where cut.json is
+  {"schema": "zvo.edits/1", "edits": [
+    {"action": "carve", "mesh": {"file": "wedge.obj", "place": {"translation": [0, 1, 0]}}},
+    {"action": "paint", "sphere": {"centre": [0, 2, 0], "radius": 0.5}, "color": "#c02010"}]})";
+
 constexpr const char* kQueryFooter = R"(
 Questions stand one in a line, of numbers with commas between them, in world units; docs/queries.md tells what is found.
   --points  x,y,z                          which voxel is the point in
@@ -260,25 +269,42 @@ void addOptions(CLI::App& validate, ValidateOptions& options)
     validate.add_option("FILE", options.file, "a .zvo or .vox file")->required()->type_name("FILE");
 }
 
-void addOptions(CLI::App& convert, ConvertOptions& options)
+// The output of a command that writes a tree as a file of any kind.
+void addTreeOutput(CLI::App& app, OutputOptions& output, std::string& format, bool& strict)
 {
-    convert.add_option("FILE", options.file, "a .zvo or .vox file")->required()->type_name("FILE");
-    addStructureOption(convert, options.structure, kStructureHelp);
-    addOutput(convert, "-o,--output", options.output.path, "FILE",
+    addOutput(app, "-o,--output", output.path, "FILE",
               "a .ply, .vox, .morton, .glb, .nvdb or .zvo file; - is standard output")
         ->required()
         ->group("Output");
-    convert.add_flag("-f,--force", options.output.overwrite, "overwrite a file that exists")->group("Output");
+    app.add_flag("-f,--force", output.overwrite, "overwrite a file that exists")->group("Output");
     addValue(
-        convert, "--format", options.format,
+        app, "--format", format,
         [](std::string_view option, std::string_view text) {
             return oneOf(option, text, {"ply", "vox", "morton", "glb", "nvdb", "zvo"});
         },
         "FORMAT", "what to write: ply, vox, morton, glb, nvdb or zvo (default: as the output's extension says)")
         ->group("Output");
-    convert.add_flag("--strict", options.strict, "refuse what would be left out with a warning")->group("Output");
-    addQuietOption(convert);
+    app.add_flag("--strict", strict, "refuse what would be left out with a warning")->group("Output");
+    addQuietOption(app);
+}
+
+void addOptions(CLI::App& convert, ConvertOptions& options)
+{
+    convert.add_option("FILE", options.file, "a .zvo or .vox file")->required()->type_name("FILE");
+    addStructureOption(convert, options.structure, kStructureHelp);
+    addTreeOutput(convert, options.output, options.format, options.strict);
     addDeviceOptions(convert, options.device);
+}
+
+void addOptions(CLI::App& edit, EditOptions& options)
+{
+    edit.add_option("FILE", options.file, "a .zvo or .vox file")->required()->type_name("FILE");
+    edit.add_option("SCRIPT", options.script, "what to do: carve, fill and paint (docs/editing.md)")
+        ->required()
+        ->type_name("FILE");
+    addStructureOption(edit, options.structure, "of a .zvo output, an octree or a DAG (default: as the file)");
+    addTreeOutput(edit, options.output, options.format, options.strict);
+    addDeviceOptions(edit, options.device);
 }
 
 void addOptions(CLI::App& query, QueryOptions& options)
@@ -350,6 +376,7 @@ int runCommandLine(int argc, const char* const* argv)
             commands.add("validate", "check everything in a .zvo or .vox file", kValidateFooter, addOptions, validate);
             commands.add("convert", "make another kind of file of a .zvo or .vox file", kConvertFooter, addOptions,
                          convert);
+            commands.add("edit", "carve, fill and paint voxels of a .zvo or .vox file", kEditFooter, addOptions, edit);
             commands.add("query", "ask a .zvo or .vox file about points, rays and boxes", kQueryFooter, addOptions,
                          query);
             commands.add("info", "list the Vulkan devices and what they offer", kInfoFooter, addOptions, info);

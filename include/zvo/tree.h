@@ -66,7 +66,7 @@ struct TreeBuildInfo
     Coverage coverage = Coverage::Thin;
     AttributeFormat format = AttributeFormat::Bytes8; // None: no attributes
     bool keep_sums = false; // for a DynamicTree with MergeRule::Average: 32 bytes a voxel more. Only with Bytes8
-    Fill fill = Fill::None; // also the voxels inside; of a grid of depth 3 or more. Neither compressed nor dynamic
+    Fill fill = Fill::None; // also the voxels inside; of a grid of depth 3 or more. Not compressed
 };
 
 /// Work that makes a tree in steps. Between steps zvo reads sizes that only the device knows, and allocates exactly

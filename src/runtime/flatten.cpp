@@ -168,8 +168,8 @@ private:
     }
 
     std::vector<gpu::Node> m_nodes;
-    std::vector<std::uint64_t> m_words;        // the same
-    std::uint32_t m_inner_count;               // of the static tree
+    std::vector<std::uint64_t> m_words; // the same
+    std::uint32_t m_inner_count;        // of the static tree
     bool m_is_filled = false;
     std::uint64_t m_to_surface = 0;            // from a leaf word to its surface mask, in words
     std::vector<std::uint32_t> m_first_voxels; // of the leaf words of an octree

@@ -110,6 +110,29 @@ TEST_F(CliRun, FillsWhatIsClosedInAllOfItsFiles)
     expectError("voxelize cube.glb --resolution 4 --fill solid -o a.morton", 2, {"resolution of 8"});
 }
 
+TEST_F(CliRun, EditsTreesByScripts)
+{
+    run("build cube.glb --resolution 16 --fill solid -o full.zvo");
+    m_dir.write("cut.json", R"({"schema": "zvo.edits/1", "about": "half of it", "edits": [
+        {"action": "carve", "mesh": {"file": "cube.glb", "place": {"translation": [0, 0.5, 0]}}},
+        {"action": "carve", "sphere": {"centre": [-9, 0, 0], "radius": 1}}]})");
+    run("edit full.zvo cut.json -o half.zvo");
+    run("edit full.zvo cut.json -o half.morton");
+    const auto report = printedBy("inspect half.zvo --json");
+    const std::size_t left = file("half.morton").size() / sizeof(std::uint64_t);
+    EXPECT_EQ(report["voxels"], left);
+    EXPECT_GT(left, 16U * 16 * 4);
+    EXPECT_LT(left, 16U * 16 * 9);
+    run("validate half.zvo");
+    run("build cube.glb --resolution 16 -o dag.zvo");
+    run("edit dag.zvo cut.json -o dag_cut.zvo");
+    EXPECT_EQ(printedBy("inspect dag_cut.zvo --json")["structure"], "svdag");
+    expectError("edit full.zvo cut.json -o a.zvo --structure svdag", 2, {"svo"});
+    expectError("edit full.zvo missing.json -o a.zvo", 3, {"missing.json"});
+    m_dir.write("bad.json", R"({"schema": "zvo.edits/1", "edits": [{"action": "carve", "mesh": {"file": "no.obj"}}]})");
+    expectError("edit full.zvo bad.json -o a.zvo", 3, {"no.obj"});
+}
+
 TEST_F(CliRun, PlyFileHoldsCentersNormalsAndColors)
 {
     run("voxelize cube.glb -o cube.ply --resolution 32");

@@ -39,4 +39,20 @@ struct VoxelBox
     [[nodiscard]] VoxelBox movedBy(const glm::ivec3& step) const { return {lo + step, hi + step}; }
 };
 
+/// Calls visit(cell) for the cells of a box, x first.
+template <typename Visit> void forCells(const VoxelBox& box, Visit visit)
+{
+    glm::ivec3 cell(0);
+    for (cell.z = box.lo.z; cell.z <= box.hi.z; ++cell.z)
+    {
+        for (cell.y = box.lo.y; cell.y <= box.hi.y; ++cell.y)
+        {
+            for (cell.x = box.lo.x; cell.x <= box.hi.x; ++cell.x)
+            {
+                visit(cell);
+            }
+        }
+    }
+}
+
 } // namespace zvo

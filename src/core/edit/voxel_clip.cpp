@@ -34,22 +34,6 @@ StampPlace placeIn(const VoxelBox& box, const glm::ivec3& voxel)
     return {gpu::stampMask(leaf_number, number), number % 32, gpu::stampCell(leaf_number, number)};
 }
 
-// Calls visit(cell) for the cells of a box.
-template <typename Visit> void forCells(const VoxelBox& box, Visit visit)
-{
-    glm::ivec3 cell(0);
-    for (cell.z = box.lo.z; cell.z <= box.hi.z; ++cell.z)
-    {
-        for (cell.y = box.lo.y; cell.y <= box.hi.y; ++cell.y)
-        {
-            for (cell.x = box.lo.x; cell.x <= box.hi.x; ++cell.x)
-            {
-                visit(cell);
-            }
-        }
-    }
-}
-
 // The octahedral code of a direction with the sign of a component changed. Codes are folded: the lower half outwards.
 std::uint32_t mirroredNormal(std::uint32_t code, glm::length_t axis)
 {

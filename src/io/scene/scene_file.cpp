@@ -2,6 +2,7 @@
 #include "io/scene/scene_file.h"
 
 #include "io/file/json_cursor.h"
+#include "io/scene/place.h"
 
 #include <array>
 #include <cmath>
@@ -19,7 +20,6 @@ namespace
 constexpr std::size_t kObjectsMax = 4096;
 constexpr double kSecondsMax = 1e6;
 constexpr double kFramesPerSecondMax = 1e4;
-constexpr double kDegreesOfTurn = 360.0;
 constexpr double kDefaultFov = 45.0; // degrees
 // Of half the angle; nearer to a half turn, rounding would decide the direction.
 constexpr double kHalfTurnCosine = 1e-9;
@@ -27,59 +27,6 @@ constexpr double kHalfTurnCosine = 1e-9;
 double readSeconds(const JsonCursor& seconds)
 {
     return seconds.positive(kSecondsMax);
-}
-
-/// An axis with a number of turns about it.
-struct Rotation
-{
-    glm::dvec3 axis{0.0, 1.0, 0.0};
-    double turns = 0.0;
-};
-
-Rotation readRotation(const JsonCursor& rotation)
-{
-    rotation.allowKeys({"axis", "degrees"});
-    return {rotation.at("axis").direction(), rotation.at("degrees").number() / kDegreesOfTurn};
-}
-
-glm::dvec3 readScale(const JsonCursor& scale)
-{
-    if (scale.isNumber())
-    {
-        return glm::dvec3(scale.number());
-    }
-    try
-    {
-        return scale.vector();
-    }
-    catch (const Error&)
-    {
-        throw scale.mismatch("a number, or three numbers [x, y, z]");
-    }
-}
-
-struct ObjectTransform
-{
-    glm::dvec3 translation{0.0};
-    glm::dmat3 linear{1.0}; // rotation * scale
-};
-
-ObjectTransform readTransform(const JsonCursor& json)
-{
-    json.allowKeys({"translation", "rotation", "scale"});
-    ObjectTransform result;
-    result.translation = json.valueOr("translation", &JsonCursor::vector, result.translation);
-    if (const auto rotation = json.find("rotation"))
-    {
-        const Rotation turn = readRotation(*rotation);
-        result.linear = rotationAbout(turn.axis, turn.turns);
-    }
-    const auto factors = json.valueOr("scale", readScale, glm::dvec3(1.0));
-    for (int column = 0; column < 3; ++column)
-    {
-        result.linear[column] *= factors[column];
-    }
-    return result;
 }
 
 double readTurnsPerSecond(const JsonCursor& orbit, double scene_seconds)
@@ -204,12 +151,6 @@ Motion readMotion(const JsonCursor& motion, const glm::dvec3& home, double scene
     return line ? Motion(readLine(*line, scene_seconds)) : Motion(readKeys(*keys, scene_seconds));
 }
 
-UpAxis readUp(const JsonCursor& up)
-{
-    constexpr std::array kAxes = {UpAxis::X, UpAxis::Y, UpAxis::Z, UpAxis::MinusX, UpAxis::MinusY, UpAxis::MinusZ};
-    return kAxes.at(up.oneOf({"x", "y", "z", "-x", "-y", "-z"}));
-}
-
 std::optional<bool> readIsDynamic(const JsonCursor& object)
 {
     const auto is_static = object.find("static");
@@ -245,10 +186,9 @@ SceneFileObject readObject(const JsonCursor& json, double scene_seconds)
     object.where = json.where();
     object.file = json.at("file").text();
     object.name = json.valueOr("name", &JsonCursor::text, std::filesystem::path(object.file).stem().string());
-    object.up = json.valueOr("up", readUp, UpAxis::Y);
-    const auto placed = json.valueOr("place", readTransform, ObjectTransform());
-    object.transform = glm::dmat4(placed.linear * glm::dmat3(rotationToY(object.up)));
-    object.transform[3] = glm::dvec4(placed.translation, 1.0);
+    object.up = json.valueOr("up", readUpAxis, UpAxis::Y);
+    const auto placed = json.valueOr("place", readPlace, Place());
+    object.transform = placed.transform(object.up);
     object.is_dynamic = readIsDynamic(json);
     if (const auto motion = json.find("motion"))
     {
