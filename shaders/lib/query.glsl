@@ -203,6 +203,7 @@ Traversal walk(uint kind, ivec3 low, ivec3 high, ivec3 motion, CellRange range, 
     uint shift = root_shift; // its cells have 1 << shift voxels per edge
     uint node = 0u;
     uint last = kNoCell; // the cell of the node that the walk has just dealt with
+    bool is_first = kind == kWalkBox; // the first voxel is the answer
     bool complete = any(greaterThan(range.low, range.high));
     bool go = !complete;
     for (; go;)
@@ -275,11 +276,24 @@ Traversal walk(uint kind, ivec3 low, ivec3 high, ivec3 motion, CellRange range, 
         bool down = is_better && !in_leaf;
         bool up = !is_any;
         uint up_shift = shift + 2u;
-        complete = (up && shift == root_shift) || (kind == kWalkBox && best.hit);
+        complete = (up && shift == root_shift) || (is_first && best.hit);
         last = down ? kNoCell : up ? cellInBlock(uvec3(corner) >> up_shift) : c;
         corner = down ? cell : up ? corner & (~0 << int(up_shift + 2u)) : corner;
         node = down ? child : up ? savedNode(up_shift + kLeafShift) : node;
         shift = down ? shift - 2u : up ? up_shift : shift;
+        if (kind == kWalkSweep && best.hit && best_time.x < 0 && !is_first)
+        {
+            // The box begins at voxels, perhaps many: the first one in Morton order counts.
+            is_first = true;
+            best.hit = false;
+            best_time = ivec2(1, 1);
+            mirror = 0u;
+            range = cellRange(low, high - 1);
+            corner = ivec3(0);
+            node = 0u;
+            shift = root_shift;
+            last = kNoCell;
+        }
         go = !complete && best.iterations < iterations_max;
     }
     best.unfinished = !complete;

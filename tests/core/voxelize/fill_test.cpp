@@ -204,13 +204,13 @@ TEST(Fill, IsHitByRaysAsTheSameVoxelsWithoutFullNodes)
     EXPECT_GT(counts[1], 100U);
 }
 
-// Boxes that begin their motion inside of so many voxels are undecided.
 TEST(Fill, AnswersQuestionsAsItsVoxels)
 {
     FilledBall ball = filledBall();
     std::mt19937 random(4);
     const test::Queries queries = test::pickQueries(random, ball.grid, ball.cells, 300);
-    for (const QueryKind kind : {QueryKind::Point, QueryKind::Ray, QueryKind::Box, QueryKind::Nearest})
+    for (const QueryKind kind :
+         {QueryKind::Point, QueryKind::Ray, QueryKind::Box, QueryKind::Nearest, QueryKind::Sweep})
     {
         std::uint64_t found = 0;
         const std::vector<QueryAnswer> answers = test::askDevice(device(), ball.built.octree, queries.list(kind));
