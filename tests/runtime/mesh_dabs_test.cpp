@@ -57,22 +57,6 @@ TreeData edited(const TreeData& tree,
     return result;
 }
 
-Scene boxScene(const glm::vec3& lo, const glm::vec3& hi)
-{
-    std::vector<glm::vec3> corners;
-    const auto corner = [&](int number)
-    {
-        return glm::vec3((number & 1) != 0 ? hi.x : lo.x, (number & 2) != 0 ? hi.y : lo.y,
-                         (number & 4) != 0 ? hi.z : lo.z);
-    };
-    for (const int number :
-         {0, 2, 1, 1, 2, 3, 4, 5, 6, 5, 7, 6, 0, 1, 4, 1, 5, 4, 2, 6, 3, 3, 6, 7, 0, 4, 2, 2, 4, 6, 1, 3, 5, 3, 7, 5})
-    {
-        corners.push_back(corner(number));
-    }
-    return test::triangleSoup(corners);
-}
-
 // A ball with full nodes of 16^3 voxels, and meshes within the grid, whose cells are those of their own filled trees.
 TEST(MeshDabs, AreDifferenceUnionAndIntersection)
 {
@@ -83,7 +67,7 @@ TEST(MeshDabs, AreDifferenceUnionAndIntersection)
     ASSERT_LT(ball.nodes.size(),
               downloadTree(device(), uploadTree(device(), octreeOfVoxels(grid, whole))).nodes.size());
     for (const Scene& mesh : {test::sphereScene(at(12, 30, 40), 14.0F * grid.voxel_size, 9),
-                              boxScene(at(20.25F, 5.25F, 8.75F), at(40.5F, 60.25F, 50.25F))})
+                              test::boxScene(at(20.25F, 5.25F, 8.75F), at(40.5F, 60.25F, 50.25F))})
     {
         const Cells cut = cellsOf(filledTree(mesh, grid));
         for (const BrushAction action : {BrushAction::Carve, BrushAction::Fill})
@@ -114,7 +98,7 @@ TEST(MeshDabs, OfAMeshThatReachesOutOfTheGridAreThoseOfItsPartInside)
 {
     const Grid grid = {glm::vec3(0), 1.0F, 6};
     const TreeData ball = filledTree(test::sphereScene(glm::vec3(30, 31, 33), 29, 16), grid);
-    const Scene mesh = boxScene({20.25F, -70.0F, -9.0F}, {41.25F, 200.0F, 33.25F});
+    const Scene mesh = test::boxScene({20.25F, -70.0F, -9.0F}, {41.25F, 200.0F, 33.25F});
     const TreeData result =
         edited(ball, [&](const DeviceTree& tree, const auto& dab) { forMeshDabs(device(), mesh, tree, {}, dab); });
     Cells expected;
@@ -140,7 +124,7 @@ TEST(MeshDabs, OfAMeshThatReachesOutOfTheGridAreThoseOfItsPartInside)
                 });
     EXPECT_GT(facing, 500U);
     EXPECT_THROW(edited(ball, [&](const DeviceTree& tree, const auto& dab)
-                        { forMeshDabs(device(), boxScene(glm::vec3(0), glm::vec3(600)), tree, {}, dab); }),
+                        { forMeshDabs(device(), test::boxScene(glm::vec3(0), glm::vec3(600)), tree, {}, dab); }),
                  Error);
 }
 

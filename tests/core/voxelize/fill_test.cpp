@@ -3,12 +3,10 @@
 #include "core/base/morton.h"
 #include "core/file/zvo_file.h"
 #include "core/tree/tree_build.h"
-#include "io/gltf/gltf_loader.h"
-#include "oracle/snap.h"
-#include "oracle/winding.h"
 #include "runtime/octree_sha256.h"
 #include "runtime/trees.h"
 #include "support/engine_device.h"
+#include "support/fill_compare.h"
 #include "support/queries.h"
 #include "support/same_bytes.h"
 #include "support/scenes.h"
@@ -32,68 +30,15 @@ namespace
 
 using test::device;
 
-// The triangles of a scene on the lattice.
-std::vector<oracle::Triangle> latticeTriangles(const Scene& scene, const Grid& grid)
-{
-    std::vector<oracle::Triangle> triangles;
-    for (const Instance& instance : scene.instances)
-    {
-        const Primitive& primitive = scene.primitives[instance.primitive];
-        for (const glm::uvec3& corners : primitive.triangles)
-        {
-            const auto& at = primitive.positions;
-            const std::array<glm::vec3, 3> points = {at[corners.x], at[corners.y], at[corners.z]};
-            triangles.push_back(
-                oracle::snapTriangle(points, instance.transform, grid, Coverage::Conservative).triangle);
-        }
-    }
-    return triangles;
-}
-
 // Expects that the cells of a filled tree are those of the surface and those whose centres have a winding number.
 // Returns how many are inside.
 std::uint64_t expectFilled(const Scene& scene, const Grid& grid, Coverage coverage, Fill fill)
 {
-    const std::vector<oracle::Triangle> triangles = latticeTriangles(scene, grid);
-    EXPECT_TRUE(oracle::isClosed(triangles));
-    const std::vector<std::int16_t> winding = oracle::windingNumbers(triangles, grid.resolution());
-    const GpuScene uploaded = uploadScene(device(), scene, true);
-    const BuildResult surface = buildOctree(device(), uploaded, grid, {.coverage = coverage});
-    const BuildResult filled = buildOctree(device(), uploaded, grid, {.coverage = coverage, .fill = fill});
-    const TreeData tree = downloadTree(device(), filled.octree);
-    std::vector<std::uint64_t> on_surface;
-    std::vector<bool> occupied(winding.size());
-    std::uint64_t interior = 0;
-    std::uint64_t wrong = 0;
-    const std::size_t resolution = grid.resolution();
-    const auto numberOf = [&](std::uint64_t code)
-    {
-        const glm::uvec3 cell = cellOfCode(code);
-        return cell.x + resolution * (cell.y + resolution * cell.z);
-    };
-    const auto isInside = [&](std::size_t number)
-    { return fill == Fill::Parity ? winding[number] % 2 != 0 : winding[number] != 0; };
-    forEachCell(tree,
-                [&](std::uint64_t code, bool is_surface)
-                {
-                    occupied[numberOf(code)] = true;
-                    if (is_surface)
-                    {
-                        on_surface.push_back(code);
-                        return;
-                    }
-                    ++interior;
-                    wrong += isInside(numberOf(code)) ? 0 : 1;
-                });
-    for (std::size_t number = 0; number < winding.size(); ++number)
-    {
-        wrong += isInside(number) && !occupied[number] ? 1 : 0;
-    }
-    EXPECT_EQ(wrong, 0U);
-    EXPECT_EQ(on_surface, voxelCodes(device(), surface.octree));
-    EXPECT_TRUE(test::sameBytes(tree.voxel_attributes, downloadTree(device(), surface.octree).voxel_attributes));
-    EXPECT_EQ(filled.octree.interior_count, interior);
-    return interior;
+    const test::FillComparison found = test::compareFill(device(), scene, grid, coverage, fill);
+    EXPECT_TRUE(found.is_closed);
+    EXPECT_EQ(found.wrong, 0U);
+    EXPECT_TRUE(found.same_surface);
+    return found.interior;
 }
 
 TEST(Fill, OfSpheresIsWhatTheirWindingNumbersSay)
@@ -112,32 +57,13 @@ TEST(Fill, OfSpheresIsWhatTheirWindingNumbersSay)
 TEST(Fill, OfTetrahedraAnywhereIsWhatTheirWindingNumbersSay)
 {
     std::mt19937 random(1);
-    const auto pick = [&](int low, int high) { return std::uniform_int_distribution<int>(low, high)(random); };
     std::uint64_t interior = 0;
     for (int round = 0; round < 32; ++round)
     {
         const std::uint32_t depth = 3 + static_cast<std::uint32_t>(round % 4);
         const Grid grid = {glm::vec3(0), 1.0F, depth};
-        const int step = std::array{1, 32, 64, 128, 256}[static_cast<std::size_t>(pick(0, 4))];
-        const int top = static_cast<int>(256 * grid.resolution()) / step;
-        std::vector<glm::vec3> corners;
-        for (int solid = pick(1, 6); solid > 0; --solid)
-        {
-            std::array<glm::vec3, 4> points;
-            for (glm::vec3& point : points)
-            {
-                point =
-                    glm::vec3(pick(0, top - 1), pick(0, top - 1), pick(0, top - 1)) * static_cast<float>(step) / 256.0F;
-            }
-            for (const auto& [a, b, c] : {std::array{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {0, 3, 2}})
-            {
-                corners.insert(corners.end(),
-                               {points.at(static_cast<std::size_t>(a)), points.at(static_cast<std::size_t>(b)),
-                                points.at(static_cast<std::size_t>(c))});
-            }
-        }
         interior +=
-            expectFilled(test::triangleSoup(corners), grid, round % 3 == 0 ? Coverage::Conservative : Coverage::Thin,
+            expectFilled(test::tetrahedra(random, grid), grid, round % 3 == 0 ? Coverage::Conservative : Coverage::Thin,
                          round % 2 == 0 ? Fill::Solid : Fill::Parity);
     }
     EXPECT_GT(interior, 5000U);

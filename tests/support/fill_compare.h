@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+// Filled trees against exact winding numbers.
+#pragma once
+
+#include "core/base/grid.h"
+#include "core/scene/scene.h"
+#include "vk/headless.h"
+#include "zvo/types.h"
+
+#include <cstdint>
+#include <random>
+
+namespace zvo::test
+{
+
+/// How a filled tree compares with what the winding numbers of its scene say.
+struct FillComparison
+{
+    bool is_closed = false;     // the scene on the lattice, as winding numbers need
+    std::uint64_t interior = 0; // voxels inside and not on the surface
+    std::uint64_t wrong = 0;    // that are not where they should be, or missing; or the tree's count of them is wrong
+    bool same_surface = false;  // voxels of the surface, and their attributes, are those of the tree without filling
+};
+
+/// Builds and fills the scene's octree. Of scenes that are not closed, only that is told.
+FillComparison compareFill(vk::HeadlessDevice& device, const Scene& scene, const Grid& grid, Coverage coverage,
+                           Fill fill);
+
+/// One to six tetrahedra, closed and anywhere in the grid, whose corners are multiples of 1, 32, 64, 128 or 256 lattice
+/// units, so that lines through voxels' centres meet edges, corners and planes. The grid begins at 0, with voxels of 1.
+Scene tetrahedra(std::mt19937& random, const Grid& grid);
+
+} // namespace zvo::test
