@@ -110,6 +110,12 @@ public:
     /// frame. Throws Error{Usage} for a radius that is too large, for a shape or action that does not exist, and for
     /// more than 32 dabs in a frame; Error{Memory}. Cost: the brush's volume.
     bool edit(Recorder& recorder, const BrushInfo& brush);
+
+    /// Records a dab with the voxels of an octree, such as one of a filled mesh (TreeBuildInfo::fill), as edit() does:
+    /// carves them (the difference), or fills them in, as they look (the union). offset: the voxel of this tree where
+    /// the octree's first one lies. The octree has at most 128 voxels per edge, attributes of 8 bytes or none, and this
+    /// tree's emission scale if it emits. Returns and throws as edit(); Error{Usage} also for another octree or action.
+    bool stamp(Recorder& recorder, const Tree& octree, const std::array<std::int32_t, 3>& offset, BrushAction action);
     void endStroke();
 
     /// Record that the previous or the next stroke's state is shown. Return false if there is none. Constant cost.

@@ -454,6 +454,8 @@ ZVO_C_API ZvoResult zvoDynamicTreeUndo(ZvoDynamicTree* tree, ZvoRecorder* record
 ZVO_C_API ZvoResult zvoDynamicTreeRedo(ZvoDynamicTree* tree, ZvoRecorder* recorder, VkBool32* is_redone);
 ZVO_C_API ZvoResult zvoDynamicTreeEdit(ZvoDynamicTree* tree, ZvoRecorder* recorder, const ZvoBrushInfo* brush,
                                        VkBool32* is_recorded);
+ZVO_C_API ZvoResult zvoDynamicTreeStamp(ZvoDynamicTree* tree, ZvoRecorder* recorder, const ZvoTree* octree,
+                                        const int32_t offset[3], ZvoBrushAction action, VkBool32* is_recorded);
 ZVO_C_API ZvoResult zvoDynamicTreeEndStroke(ZvoDynamicTree* tree);
 ZVO_C_API ZvoResult zvoDynamicTreeUndoEdit(ZvoDynamicTree* tree, ZvoRecorder* recorder, VkBool32* is_undone);
 ZVO_C_API ZvoResult zvoDynamicTreeRedoEdit(ZvoDynamicTree* tree, ZvoRecorder* recorder, VkBool32* is_redone);

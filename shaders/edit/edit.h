@@ -246,6 +246,24 @@ struct EditCopyParams // push constants of edit/copy, behind edit/find: a workgr
     CONSTANT(1, bool, emits, kEmits, false)
 GPU_KERNEL(edit, copy, Copy, EditCopyParams, EDIT_COPY_CONSTANTS)
 
+struct EditStampParams // push constants of edit/stamp: a workgroup for each cell that is a leaf
+{
+    GPU_CONST_PTR(Node) nodes; // of the octree that becomes a stamp
+    GPU_CONST_PTR(uvec2) leaf_groups;
+    GPU_CONST_PTR(Attribute) node_attributes; // kAttributes only, as the next
+    GPU_CONST_PTR(Attribute) attributes;
+    GPU_CONST_PTR(uvec2) emission_words; // kEmits only, as the next
+    GPU_CONST_PTR(uint) emission;
+    GPU_PTR(uint) stamp; // [leaves * kStampWords] cleared
+    ivec3 offset;        // of the octree's first voxel in the grid that is edited
+    EditBox box;
+};
+#define EDIT_STAMP_CONSTANTS(CONSTANT)                                                                                 \
+    CONSTANT(0, uint, node_levels, kNodeLevels, 5u)                                                                    \
+    CONSTANT(1, bool, attributes, kAttributes, false)                                                                  \
+    CONSTANT(2, bool, emits, kEmits, false)
+GPU_KERNEL(edit, stamp, Stamp, EditStampParams, EDIT_STAMP_CONSTANTS)
+
 struct EditAverageParams // push constants of edit/average: kLanes threads a cell that is a leaf
 {
     GPU_CONST_PTR(SceneView) scene;

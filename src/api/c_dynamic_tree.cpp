@@ -91,6 +91,19 @@ ZvoResult zvoDynamicTreeEdit(ZvoDynamicTree* tree, ZvoRecorder* recorder, const 
                     [&] { return objectOf(tree, "tree").edit(objectOf(recorder, "recorder"), read(brush, "brush")); });
 }
 
+ZvoResult zvoDynamicTreeStamp(ZvoDynamicTree* tree, ZvoRecorder* recorder, const ZvoTree* octree,
+                              const int32_t offset[3], ZvoBrushAction action, VkBool32* is_recorded)
+{
+    return answered(__func__, is_recorded, "is_recorded",
+                    [&]
+                    {
+                        const int32_t* const by = &at(offset, "offset");
+                        return objectOf(tree, "tree")
+                            .stamp(objectOf(recorder, "recorder"), objectOf(octree, "octree"), {by[0], by[1], by[2]},
+                                   static_cast<BrushAction>(action));
+                    });
+}
+
 ZvoResult zvoDynamicTreeEndStroke(ZvoDynamicTree* tree)
 {
     return guarded(__func__, [&] { objectOf(tree, "tree").endStroke(); });

@@ -5,9 +5,13 @@
 #include "api/convert.h"
 #include "api/dynamic_tree_impl.h"
 #include "api/model_impl.h"
+#include "api/shown_tree.h"
 #include "core/scene/animation.h"
 #include "core/tree/tree_table.h"
 
+#include <algorithm>
+#include <bit>
+#include <cstdlib>
 #include <span>
 
 namespace zvo
@@ -15,6 +19,8 @@ namespace zvo
 
 namespace
 {
+
+constexpr std::int64_t kFarthestVoxel = 1 << 20; // farther away, no grid has voxels
 
 DynamicOptions optionsOf(const DynamicTreeInfo& info)
 {
@@ -189,6 +195,37 @@ bool DynamicTree::edit(Recorder& recorder, const BrushInfo& info)
     }
     return usable(*this).changeEdits(recorder, [&](DynamicOctree& octree, vk::FrameGraph& graph)
                                      { return octree.edit(graph, brush); });
+}
+
+bool DynamicTree::stamp(Recorder& recorder, const Tree& octree, const std::array<std::int32_t, 3>& offset,
+                        BrushAction action)
+{
+    const DeviceTree& source = shownIn(recorder.impl(), octree).tree;
+    const DeviceTree& edited = usable(*this).octree->tree();
+    if (action != BrushAction::Carve && action != BrushAction::Fill)
+    {
+        throw Error(ErrorCode::Usage, "a stamp carves or fills");
+    }
+    requireAtMost(source.grid.depth, std::bit_width(gpu::kDabEdgeMax) - 1, "the depth of a stamp's grid");
+    if (source.isDag() || isPacked(source.attributeFormat()))
+    {
+        throw Error(ErrorCode::Usage, "a stamp is an octree, with attributes of 8 bytes or none");
+    }
+    if (source.emission.count() != 0 && edited.emission_words.count() != 0 &&
+        source.emission_scale != edited.emission_scale)
+    {
+        throw Error(ErrorCode::Usage, "a stamp has another emission scale than the tree");
+    }
+    const auto isFarAway = [](std::int32_t voxels) { return std::abs(std::int64_t{voxels}) > kFarthestVoxel; };
+    if (source.node_count == 0 || std::ranges::any_of(offset, isFarAway))
+    {
+        return true;
+    }
+    Brush brush;
+    brush.action = action;
+    brush.tree_stamp = {&source, {offset[0], offset[1], offset[2]}, static_cast<int>(source.grid.resolution())};
+    return usable(*this).changeEdits(recorder, [&](DynamicOctree& dynamic, vk::FrameGraph& graph)
+                                     { return dynamic.edit(graph, brush); });
 }
 
 void DynamicTree::endStroke()

@@ -110,6 +110,36 @@ TEST_F(ApiDynamic, BrushesChangeWhatStandsAndAreUndone)
     EXPECT_EQ(m_host.picture(tree, test::apiCamera()), after);
 }
 
+// A filled ball is added and taken away: difference and union of what rays see, and undo.
+TEST_F(ApiDynamic, StampsAddAndTakeTheVoxelsOfAnOctree)
+{
+    DynamicTree tree = dynamicTree(fixedTree(false));
+    const Tree solid = m_host.build(ball(), {.grid = {{-2.5F, -2.5F, -2.5F}, 0.16F, 5}, .fill = Fill::Solid});
+    const auto before = m_host.picture(tree, test::apiCamera());
+    const std::array<std::int32_t, 3> offset = {29, 33, 38};
+    const auto stamp = [&](const std::array<std::int32_t, 3>& at, BrushAction action)
+    {
+        m_host.frame([&](Recorder& recorder) { EXPECT_TRUE(tree.stamp(recorder, solid, at, action)); });
+        tree.endStroke();
+        return m_host.picture(tree, test::apiCamera());
+    };
+    const auto filled = stamp(offset, BrushAction::Fill);
+    EXPECT_NE(filled, before);
+    EXPECT_EQ(stamp(offset, BrushAction::Fill), filled);
+    EXPECT_EQ(stamp({INT32_MAX, 0, INT32_MIN}, BrushAction::Carve), filled);
+    const auto carved = stamp(offset, BrushAction::Carve);
+    EXPECT_NE(carved, filled);
+    EXPECT_EQ(stamp(offset, BrushAction::Carve), carved);
+    m_host.frame([&](Recorder& recorder) { EXPECT_TRUE(tree.undoEdit(recorder)); });
+    m_host.frame([&](Recorder& recorder) { EXPECT_TRUE(tree.undoEdit(recorder)); });
+    EXPECT_EQ(m_host.picture(tree, test::apiCamera()), filled);
+    m_host.frame([&](Recorder& recorder)
+                 { EXPECT_THROW(tree.stamp(recorder, solid, offset, BrushAction::Paint), Error); });
+    const Tree large = m_host.build(ball(), {.grid = {{-2.5F, -2.5F, -2.5F}, 0.02F, 8}});
+    m_host.frame([&](Recorder& recorder)
+                 { EXPECT_THROW(tree.stamp(recorder, large, offset, BrushAction::Carve), Error); });
+}
+
 TEST_F(ApiDynamic, ALostFrameTakesNothingAlong)
 {
     DynamicTree tree = dynamicTree(fixedTree(false));

@@ -228,6 +228,7 @@ TEST(CStructs, PointersThatAreNullAreRefused)
             REFUSES_NULLS(zvoDynamicTreeUndo);
             REFUSES_NULLS(zvoDynamicTreeRedo);
             REFUSES_NULLS(zvoDynamicTreeEdit);
+            REFUSES_NULLS(zvoDynamicTreeStamp);
             REFUSES_NULLS(zvoDynamicTreeUndoEdit);
             REFUSES_NULLS(zvoDynamicTreeRedoEdit);
             REFUSES_NULLS(zvoTracerTrace, 6);

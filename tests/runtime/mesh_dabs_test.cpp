@@ -10,6 +10,7 @@
 #include "runtime/trees.h"
 #include "support/engine_device.h"
 #include "support/scenes.h"
+#include "support/tree_samples.h"
 
 #include <gtest/gtest.h>
 
@@ -57,6 +58,19 @@ TreeData edited(const TreeData& tree,
     return result;
 }
 
+// A box whose triangles all face outwards.
+Scene closedBox(const glm::vec3& lo, const glm::vec3& hi)
+{
+    std::vector<glm::vec3> corners;
+    for (const std::uint32_t number : {0U, 2U, 1U, 1U, 2U, 3U, 4U, 5U, 6U, 5U, 7U, 6U, 0U, 1U, 4U, 1U, 5U, 4U,
+                                       2U, 6U, 3U, 3U, 6U, 7U, 0U, 4U, 2U, 2U, 4U, 6U, 1U, 3U, 5U, 3U, 7U, 5U})
+    {
+        corners.emplace_back((number & 1U) != 0 ? hi.x : lo.x, (number & 2U) != 0 ? hi.y : lo.y,
+                             (number & 4U) != 0 ? hi.z : lo.z);
+    }
+    return test::triangleSoup(corners);
+}
+
 // A ball with full nodes of 16^3 voxels, and meshes within the grid, whose cells are those of their own filled trees.
 TEST(MeshDabs, AreDifferenceUnionAndIntersection)
 {
@@ -67,7 +81,7 @@ TEST(MeshDabs, AreDifferenceUnionAndIntersection)
     ASSERT_LT(ball.nodes.size(),
               downloadTree(device(), uploadTree(device(), octreeOfVoxels(grid, whole))).nodes.size());
     for (const Scene& mesh : {test::sphereScene(at(12, 30, 40), 14.0F * grid.voxel_size, 9),
-                              test::boxScene(at(20.25F, 5.25F, 8.75F), at(40.5F, 60.25F, 50.25F))})
+                              closedBox(at(20.25F, 5.25F, 8.75F), at(40.5F, 60.25F, 50.25F))})
     {
         const Cells cut = cellsOf(filledTree(mesh, grid));
         for (const BrushAction action : {BrushAction::Carve, BrushAction::Fill})
@@ -93,12 +107,39 @@ TEST(MeshDabs, AreDifferenceUnionAndIntersection)
     }
 }
 
+// Voxels of an octree, moved by any number of them and partly out of the grid.
+TEST(MeshDabs, AnOctreeAsAStampDoesWhatACopyOfItsVoxelsDoes)
+{
+    const Grid grid = {glm::vec3(0), 1.0F, 6};
+    const TreeData ball = filledTree(test::sphereScene(glm::vec3(30, 31, 33), 29, 16), grid);
+    const Grid small = {glm::vec3(0), 1.0F, 5};
+    const GpuScene scene = uploadScene(device(), test::sphereScene(glm::vec3(14, 17, 15), 12, 12), true);
+    for (const auto& [action, fill] : {std::pair(BrushAction::Carve, Fill::Solid),
+                                       {BrushAction::Carve, Fill::None},
+                                       {BrushAction::Fill, Fill::None}})
+    {
+        const DeviceTree octree = buildOctree(device(), scene, small, {.fill = fill}).octree;
+        const VoxelClip clip = copyVoxels(device(), octree, 0, {glm::ivec3(0), glm::ivec3(31)});
+        for (const glm::ivec3& offset : {glm::ivec3(16, 20, 12), {-7, 33, 41}, {1, 2, 3}})
+        {
+            const TreeData expected = edited(ball, [&](const DeviceTree& /*tree*/, const auto& dab)
+                                             { dab({.action = action, .stamp = clip.stampAt(offset, grid)}); });
+            const TreeData result = edited(ball,
+                                           [&](const DeviceTree& /*tree*/, const auto& dab) {
+                                               dab({.action = action, .tree_stamp = {&octree, offset, 32}});
+                                           });
+            EXPECT_EQ(test::treeDifference(result, expected), "");
+            EXPECT_NE(test::treeDifference(result, ball), "");
+        }
+    }
+}
+
 // A box from below the grid to above it: its top is outside, and yet it is known what is inside.
 TEST(MeshDabs, OfAMeshThatReachesOutOfTheGridAreThoseOfItsPartInside)
 {
     const Grid grid = {glm::vec3(0), 1.0F, 6};
     const TreeData ball = filledTree(test::sphereScene(glm::vec3(30, 31, 33), 29, 16), grid);
-    const Scene mesh = test::boxScene({20.25F, -70.0F, -9.0F}, {41.25F, 200.0F, 33.25F});
+    const Scene mesh = closedBox({20.25F, -70.0F, -9.0F}, {41.25F, 200.0F, 33.25F});
     const TreeData result =
         edited(ball, [&](const DeviceTree& tree, const auto& dab) { forMeshDabs(device(), mesh, tree, {}, dab); });
     Cells expected;
@@ -124,7 +165,7 @@ TEST(MeshDabs, OfAMeshThatReachesOutOfTheGridAreThoseOfItsPartInside)
                 });
     EXPECT_GT(facing, 500U);
     EXPECT_THROW(edited(ball, [&](const DeviceTree& tree, const auto& dab)
-                        { forMeshDabs(device(), test::boxScene(glm::vec3(0), glm::vec3(600)), tree, {}, dab); }),
+                        { forMeshDabs(device(), closedBox(glm::vec3(0), glm::vec3(600)), tree, {}, dab); }),
                  Error);
 }
 

@@ -31,6 +31,7 @@ struct Options
     std::string shape; // empty: all
     std::int64_t batch = -1;
     bool meshes = true;
+    std::uint32_t mesh_depth = 0; // of the grids of meshes; 0: 9, of Sponza 8
 };
 
 const char* nameOf(Coverage coverage)
@@ -144,7 +145,7 @@ std::uint64_t checkPlaced(vk::HeadlessDevice& device, const Options& options)
     return sums[0].differences + sums[1].differences;
 }
 
-std::uint64_t checkMeshes(vk::HeadlessDevice& device)
+std::uint64_t checkMeshes(vk::HeadlessDevice& device, std::uint32_t depth)
 {
     struct Mesh
     {
@@ -163,7 +164,7 @@ std::uint64_t checkMeshes(vk::HeadlessDevice& device)
             continue;
         }
         const Scene scene = loadGltf(*path);
-        const Grid grid = Grid::around(scene.bounds(), mesh.depth);
+        const Grid grid = Grid::around(scene.bounds(), depth != 0 ? depth : mesh.depth);
         for (const Coverage coverage : kCoverages)
         {
             const Tally tally = compareScene(device, scene, grid, coverage);
@@ -185,7 +186,7 @@ bool run(const Options& options)
     if (options.shape.empty())
         differences += checkPlaced(device, options);
     if (options.meshes)
-        differences += checkMeshes(device);
+        differences += checkMeshes(device, options.mesh_depth);
     fmt::print("{} differences\n", differences);
     return differences == 0;
 }
@@ -201,6 +202,7 @@ int main(int argc, char** argv)
     app.add_option("--seed", options.seed, "another number, other triangles")->capture_default_str();
     app.add_option("--shape", options.shape, "only this shape");
     app.add_option("--batch", options.batch, "only this batch of --shape, as a difference names it");
+    app.add_option("--mesh-depth", options.mesh_depth, "of the grids of whole meshes, up to 11");
     app.add_flag("!--no-meshes", options.meshes, "without whole meshes");
     CLI11_PARSE(app, argc, argv);
     return zvo::stress::runProgram("check_coverage", [&] { return zvo::stress::run(options); });

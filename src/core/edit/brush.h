@@ -14,6 +14,8 @@
 namespace zvo
 {
 
+struct DeviceTree;
+
 static_assert(static_cast<gpu::uint>(BrushShape::Sphere) == gpu::kBrushSphere);
 static_assert(static_cast<gpu::uint>(BrushShape::Box) == gpu::kBrushBox);
 static_assert(static_cast<gpu::uint>(BrushAction::Carve) == gpu::kBrushCarve);
@@ -27,6 +29,19 @@ struct Stamp
 {
     VoxelBox box;                     // in the grid
     std::vector<std::uint32_t> words; // [gpu::kStampWords for each leaf that the box touches]
+};
+
+/// An octree in device memory whose voxels are a stamp: without DAG, with attributes of 8 bytes or none. It must
+/// outlive the frame, and stand still in it.
+struct TreeStamp
+{
+    const DeviceTree* tree = nullptr; // null: no stamp
+    gpu::ivec3 offset{0};             // of its first voxel in the grid that is edited
+    int resolution = 0;               // of its grid
+
+    bool operator==(const TreeStamp&) const = default;
+
+    [[nodiscard]] VoxelBox box() const { return {offset, offset + resolution - 1}; }
 };
 
 /// A dab of a brush on the voxels of a grid.
@@ -44,6 +59,7 @@ struct Brush
     std::optional<VoxelBox> part = std::nullopt;  // only what is in it
     std::shared_ptr<const Stamp> stamp = nullptr; // in place of a shape: Fill makes its voxels, whatever was there,
                                                   // Carve takes voxels where it has some
+    TreeStamp tree_stamp = {};                    // in place of both: does as a stamp
 
     bool operator==(const Brush&) const = default;
 
@@ -52,8 +68,12 @@ struct Brush
     {
         const VoxelBox ends = VoxelBox::of(center, center + span);
         const auto reach = static_cast<int>(radius);
-        return stamp != nullptr ? stamp->box : VoxelBox{ends.lo - reach, ends.hi + reach};
+        return stamp != nullptr             ? stamp->box
+               : tree_stamp.tree != nullptr ? tree_stamp.box()
+                                            : VoxelBox{ends.lo - reach, ends.hi + reach};
     }
+
+    [[nodiscard]] bool isStamp() const { return stamp != nullptr || tree_stamp.tree != nullptr; }
 
     /// Whether a voxel is under a brush without stamp and part.
     [[nodiscard]] bool covers(const gpu::ivec3& voxel) const

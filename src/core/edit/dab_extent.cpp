@@ -34,10 +34,10 @@ std::optional<DabExtent> DabExtent::of(const Brush& brush, const Grid& grid, boo
     const Wide far = Wide(brush.center) + Wide(brush.span);
     Wide lo = glm::max(glm::min(Wide(brush.center), far) - std::int64_t{brush.radius}, Wide(0));
     Wide hi = glm::min(glm::max(Wide(brush.center), far) + std::int64_t{brush.radius}, last);
-    if (brush.stamp != nullptr)
+    if (brush.isStamp())
     {
-        lo = glm::max(Wide(brush.stamp->box.lo), Wide(0));
-        hi = glm::min(Wide(brush.stamp->box.hi), last);
+        lo = glm::max(Wide(brush.box().lo), Wide(0));
+        hi = glm::min(Wide(brush.box().hi), last);
     }
     if (brush.part)
     {

@@ -23,7 +23,7 @@ namespace
 gpu::Brush gpuBrush(const Brush& brush, const DeviceTree& tree, gpu::uint grown)
 {
     const VoxelBox box = brush.box();
-    const auto shape = static_cast<gpu::uint>(brush.stamp != nullptr ? BrushShape::Box : brush.shape);
+    const auto shape = static_cast<gpu::uint>(brush.isStamp() ? BrushShape::Box : brush.shape);
     const auto action = static_cast<gpu::uint>(brush.action);
     const bool emits = tree.emission_words.count() != 0 && brush.emission != gpu::vec3(0.0F);
     return {box.lo, box.hi, shape | action << gpu::kBrushActionShift | grown << gpu::kBrushGrownShift,
@@ -276,6 +276,25 @@ void recordDab(vk::FrameGraph& graph, EditSite& site, const Brush& brush, const 
     {
         recordAttributes(graph, site, dab, extent, slots, tables, stamp, buffers);
     }
+}
+
+void recordStamp(vk::FrameGraph& graph, const TreeStamp& stamp, const DabExtent& extent, vk::BufferOf<gpu::uint>& words)
+{
+    const DeviceTree& tree = *stamp.tree;
+    graph.fill(words, 0);
+    vk::Pass pass = graph.addPass(gpu::edit::Stamp{.node_levels = tree.grid.nodeLevels(),
+                                                   .attributes = tree.hasNodeAttributes(),
+                                                   .emits = tree.emission_words.count() != 0});
+    pass.dispatch(std::uint64_t{extent.leafCount()} * gpu::kEditGroup,
+                  {.nodes = pass.read(tree.nodes),
+                   .leaf_groups = pass.read(tree.leaf_groups),
+                   .node_attributes = pass.read(tree.node_attributes),
+                   .attributes = pass.read(tree.voxel_attributes),
+                   .emission_words = pass.read(tree.emission_words),
+                   .emission = pass.read(tree.emission),
+                   .stamp = pass.readWrite(words),
+                   .offset = stamp.offset,
+                   .box = extent.box});
 }
 
 void recordCopy(vk::FrameGraph& graph, const DeviceTree& tree, std::uint32_t root, const DabExtent& extent,

@@ -72,6 +72,10 @@ void recordDab(vk::FrameGraph& graph, EditSite& site, const Brush& brush, const 
                const DabSlots& slots, const vk::BufferOf<gpu::SceneView>& tables, const vk::BufferOf<gpu::uint>& stamp,
                DabBuffers& buffers);
 
+/// Records what makes an octree the stamp of a dab. words: [extent.leafCount() * gpu::kStampWords].
+void recordStamp(vk::FrameGraph& graph, const TreeStamp& stamp, const DabExtent& extent,
+                 vk::BufferOf<gpu::uint>& words);
+
 /// Records the copy of a box of an edited tree's voxels, without dynamic objects, to the words of a stamp. root: of the
 /// edited tree. words: [extent.leafCount() * gpu::kStampWords].
 void recordCopy(vk::FrameGraph& graph, const DeviceTree& tree, std::uint32_t root, const DabExtent& extent,

@@ -33,6 +33,10 @@ OverlayRegion regionOf(std::uint64_t nodes, std::uint64_t voxels)
 // The words of the brush's stamp for the leaves of a dab, which may be a part of those of the stamp.
 vk::BufferOf<gpu::uint> stampFor(vk::Device& device, const Brush& brush, const DabExtent& extent)
 {
+    if (brush.tree_stamp.tree != nullptr)
+    {
+        return {device, "edit/stamp", std::uint64_t{extent.leafCount()} * gpu::kStampWords};
+    }
     if (brush.stamp == nullptr)
     {
         return {};
@@ -166,7 +170,11 @@ bool Edits::tryDab(vk::FrameGraph& graph, const Brush& brush, const DabExtent& e
         }
         m_buffers = std::move(larger);
     }
-    const vk::BufferOf<gpu::uint>& stamp = m_deletion_queue.keep(stampFor(m_device, brush, extent));
+    vk::BufferOf<gpu::uint>& stamp = m_deletion_queue.keep(stampFor(m_device, brush, extent));
+    if (brush.tree_stamp.tree != nullptr)
+    {
+        recordStamp(graph, brush.tree_stamp, extent, stamp);
+    }
     DabSlots slots = {.from = m_now.history.slot(), .kept = keptSlot()};
     slots.to = m_now.history.push(extent.node_bound, attributes ? extent.voxel_bound : 0, slots.kept);
     m_now.is_compact = false;
