@@ -262,8 +262,8 @@ bool EditModel::isClose(const Brush& brush, const VoxelBox& box, std::uint64_t c
     return is_close && leaves.contains(leaf);
 }
 
-// The direction that a voxel faces where a brush that carves takes a neighbour of it by a face: to the brush, or against
-// the normals of what a stamp takes.
+// The direction that a voxel faces where a brush that carves takes a neighbour of it by a face: to the brush, or
+// against the normals of what a stamp takes.
 glm::ivec3 EditModel::bareNormal(const Brush& brush, const VoxelBox& box, const glm::ivec3& voxel)
 {
     bool is_bare = false;
@@ -288,8 +288,8 @@ glm::ivec3 EditModel::bareNormal(const Brush& brush, const VoxelBox& box, const 
     return brush.stamp != nullptr ? -taken : is_bare ? -outwards(brush, voxel) : glm::ivec3(0);
 }
 
-// Of a filled tree, what a brush that carves lays bare changes, too. Leaves that it comes close to, and that have voxels
-// without attributes or that a brush has changed before, count as changed.
+// Of a filled tree, what a brush that carves lays bare changes, too. Leaves that it comes close to, and that have
+// voxels without attributes or that a brush has changed before, count as changed.
 void EditModel::layBare(const Brush& brush, const VoxelBox& box, Leaves& changed)
 {
     Leaves bared;
