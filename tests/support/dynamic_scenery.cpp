@@ -111,8 +111,9 @@ std::ostream& operator<<(std::ostream& out, const DynamicSetting& s)
 {
     return out << "depth " << s.depth << ", coverage " << static_cast<int>(s.coverage) << ", merge "
                << static_cast<int>(s.merge) << ", attributes " << s.attributes << ", emits " << s.emits << ", static "
-               << s.has_static << ", compressed " << s.compressed << ", filled " << s.filled << ", minimal " << s.minimal_capacities << ", frames "
-               << s.frames_in_flight << ", entries " << s.entries_max << ", " << s.shot;
+               << s.has_static << ", compressed " << s.compressed << ", filled " << s.filled << ", minimal "
+               << s.minimal_capacities << ", frames " << s.frames_in_flight << ", entries " << s.entries_max << ", "
+               << s.shot;
 }
 
 DynamicScenery::DynamicScenery(vk::HeadlessDevice& device, bool emits)

@@ -339,7 +339,8 @@ void EditMachine::compareCopy()
             ++count;
             const std::optional<ClipVoxel>& copied = clip.at(cell);
             RC_ASSERT(copied.has_value());
-            const gpu::Attribute look = m_setting.attributes ? model().lookOf(voxel) : gpu::Attribute{0, gpu::kNoNormal};
+            const gpu::Attribute look =
+                m_setting.attributes ? model().lookOf(voxel) : gpu::Attribute{0, gpu::kNoNormal};
             RC_ASSERT((*copied == ClipVoxel{look, voxel.emission}));
         }
     }
