@@ -12,6 +12,7 @@
 #include "runtime/flatten.h"
 #include "runtime/live_scene.h"
 #include "runtime/mesh_dabs.h"
+#include "runtime/script_brush.h"
 #include "runtime/trees.h"
 #include "zvo/error.h"
 
@@ -30,7 +31,7 @@ namespace zvo::cli
 namespace
 {
 
-constexpr std::uint32_t kDabsAtOnce = 16; // whose stamps take 3 MB each
+constexpr std::uint32_t kDabsAtOnce = 16; // whose stamps take up to 4.5 MB each
 
 // Carries out the edits of a script, one after the other.
 class Editor
@@ -49,7 +50,7 @@ public:
     // Carries out what still waits.
     void finish()
     {
-        m_scene.settle(0);
+        m_scene.updateAndWait(0);
         m_waiting = 0;
     }
 
@@ -73,6 +74,16 @@ private:
     {
         const Scene scene = loadEditMesh(mesh);
         warnOrRefuse(scene.warnings, m_strict);
+        const float brightest = brightestEmission(scene);
+        const float scale = m_scene.tree().emission_scale;
+        if (edit.action == BrushAction::Fill && brightest > scale)
+        {
+            warnOrRefuse(
+                {fmt::format("{}: the mesh gives off {:g}, more than the {:g} of this tree: what is brighter is "
+                             "cut",
+                             edit.where, brightest, scale)},
+                m_strict);
+        }
         const MeshDabOptions options = {.action = edit.action, .fill = mesh.fill};
         const auto dab = [this](const Brush& brush) { apply(brush); };
         if (edit.outside)

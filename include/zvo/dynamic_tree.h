@@ -112,8 +112,9 @@ public:
     bool edit(Recorder& recorder, const BrushInfo& brush);
 
     /// Records a dab with the voxels of an octree, such as one of a filled mesh (TreeBuildInfo::fill), as edit() does:
-    /// carves them (the difference), or fills them in, as they look (the union). offset: the voxel of this tree where
-    /// the octree's first one lies. The octree has at most 128 voxels per edge, attributes of 8 bytes or none, and this
+    /// carves them (the difference), or fills them in, as they look (the union), black without attributes. offset: the
+    /// voxel of this tree where the octree's first one lies. It takes up to 30 MB of device memory until its frame is
+    /// done. The octree has at most 128 voxels per edge, attributes of 8 bytes or none, and this
     /// tree's emission scale if it emits. Returns and throws as edit(); Error{Usage} also for another octree or action.
     bool stamp(Recorder& recorder, const Tree& octree, const std::array<std::int32_t, 3>& offset, BrushAction action);
     void endStroke();

@@ -161,8 +161,8 @@ struct EditFindParams // push constants of edit/find: one thread a cell
     CONSTANT(0, uint, entries_per_word, kEntriesPerWord,                                                               \
              0u) /* of the lists of a DAG; 0: the static tree is an octree */                                          \
     CONSTANT(1, bool, attributes, kAttributes, false)                                                                  \
-    CONSTANT(2, bool, stamp, kStamp, false) /* only voxels of a stamp */                                               \
-    CONSTANT(3, bool, bares, kBares, false) /* what is laid bare changes as well: a filled tree is carved */
+    CONSTANT(2, bool, stamp, kStamp, false)     /* only voxels of a stamp */                                           \
+    CONSTANT(3, bool, exposes, kExposes, false) /* what is laid bare changes as well: a filled tree is carved */
 GPU_KERNEL(edit, find, Find, EditFindParams, EDIT_FIND_CONSTANTS)
 
 struct EditAllocateParams // push constants of edit/allocate: one workgroup
@@ -226,8 +226,8 @@ struct EditVoxelsParams // push constants of edit/voxels and edit/emission: a wo
 GPU_KERNEL(edit, emission, Emission, EditVoxelsParams, EDIT_EMISSION_CONSTANTS)
 #define EDIT_VOXELS_CONSTANTS(CONSTANT)                                                                                \
     CONSTANT(0, bool, emits, kEmits, false)                                                                            \
-    CONSTANT(1, bool, stamp, kStamp, false) /* voxels look like those of a stamp */                                    \
-    CONSTANT(2, bool, bares, kBares, false) /* what is laid bare gets normals: a filled tree is carved */
+    CONSTANT(1, bool, stamp, kStamp, false)     /* voxels look like those of a stamp */                                \
+    CONSTANT(2, bool, exposes, kExposes, false) /* what is laid bare gets normals: a filled tree is carved */
 GPU_KERNEL(edit, voxels, Voxels, EditVoxelsParams, EDIT_VOXELS_CONSTANTS)
 
 struct EditCopyParams // push constants of edit/copy, behind edit/find: a workgroup for each cell that is a leaf

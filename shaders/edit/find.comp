@@ -105,7 +105,7 @@ void dab(uvec3 leaf, uint number, bool own, inout EditCell cell)
     uvec2 taken = action == kBrushCarve ? under & mask : uvec2(0u);
     uvec2 painted = paints && kAttributes ? under & mask : uvec2(0u);
     uvec2 touched = made | taken | painted;
-    if (kBares) // all that may be laid bare, and has no attributes or may lack a normal
+    if (kExposes) // all that may be laid bare, and has no attributes or may lack a normal
     {
         uvec2 without = own ? mask : mask & ~uvec2(cell.surface_lo, cell.surface_hi);
         touched |= voxelsNearBrush(leaf, number) & without;
@@ -129,7 +129,7 @@ void findLeaf(RankedNode at, uvec3 position, uint number, inout EditCell cell)
         cell.voxels = at.voxels + surface.base_lo;
         cell.surface_lo = surface.mask_lo;
         cell.surface_hi = surface.mask_hi;
-        own = !isLeafWord(at.node) && !isFullNode(params.nodes.data[at.node & ~kFullNodes].base_lo);
+        own = !isLeafWord(at.node) && !isFullNode(loadInner(params.nodes, at.node).base_lo);
     }
     dab(position, number, own, cell);
 }

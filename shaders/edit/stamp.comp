@@ -12,17 +12,20 @@ layout(local_size_x = kEditGroup) in;
 #include "lib/emission.glsl"
 #include "lib/morton.glsl"
 
-// The leaf around a voxel of the octree, or kNoEditNode if there is no such voxel.
-uint leafAround(uvec3 voxel)
+// The leaf around a voxel of the octree, or kNoEditNode if there is no such voxel. around: the lowest node around it
+// that is not full.
+uint leafAround(uvec3 voxel, out uint around)
 {
     uint node = 0u;
+    around = 0u;
     bool exists = all(lessThan(voxel, uvec3(1u << (2u * kNodeLevels))));
     for (uint level = 0u; exists && level < kNodeLevels; ++level)
     {
         uint child = cellInBlock(voxel >> (2u * (kNodeLevels - 1u - level)));
         exists = hasCell(nodeMask(params.nodes, node), child);
+        around = isFullNode(node) ? around : node;
         if (exists && level + 1u < kNodeLevels)
-            node = childIndex(params.nodes.data[node & ~kFullNodes], child);
+            node = childIndex(loadInner(params.nodes, node), child);
     }
     return exists ? node : kNoEditNode;
 }
@@ -35,7 +38,10 @@ void main()
         return;
     uvec3 cell = 4u * cellOf(params.box, params.box.level_count - 1u, number) + cellNumbered(bit);
     uvec3 voxel = uvec3(ivec3(cell) - params.offset); // those below 0 are far away
-    uint leaf = isInDab(params.box, cell) ? leafAround(voxel) : kNoEditNode;
+    if (!isInDab(params.box, cell))
+        return;
+    uint around;
+    uint leaf = leafAround(voxel, around);
     if (leaf == kNoEditNode)
         return;
     Attribute look = Attribute(0u, kNoNormal);
@@ -47,7 +53,7 @@ void main()
         if (hasChild(surface, cellInBlock(voxel)))
             look = params.attributes.data[index];
         else
-            look = interiorLook(params.node_attributes.data[0]);
+            look = interiorLook(params.node_attributes.data[nodeIndexOf(params.leaf_groups, around)]);
         if (kEmits && ((look.color >> 24) & kAttributeEmissive) != 0u)
             emission = params.emission.data[emissionIndex(params.emission_words, index)];
     }

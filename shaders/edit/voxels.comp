@@ -34,14 +34,15 @@ uint stampWordAt(uvec3 voxel)
     return has_voxel ? stampCell(leaf, bit) : ~0u;
 }
 
-// The normal of a voxel that a brush lays bare as it takes a neighbour by a face: into the brush, or against the normals
-// of what a stamp takes there. Zero for other voxels.
-ivec3 bareNormal(uvec3 cell)
+// The normal of a voxel that a brush lays bare as it takes a neighbour by a face: into the brush; or against the normals
+// of what a stamp takes there, if that has some, and else towards it. Zero for other voxels.
+ivec3 exposedNormal(uvec3 cell)
 {
     uvec3 lo = boxLow(params.brush, params.box);
     uvec3 hi = boxHigh(params.brush, params.box);
     bool bare = false;
-    ivec3 taken = ivec3(0);
+    ivec3 taken = ivec3(0); // the sum of normals
+    ivec3 open = ivec3(0);  // the sum of directions
     [[unroll]] for (uint side = 0u; side < 6u; ++side)
     {
         uvec3 beside = besideFace(cell, side);
@@ -51,13 +52,16 @@ ivec3 bareNormal(uvec3 cell)
         {
             uint word = stampWordAt(beside);
             taken += word != ~0u ? decodeNormal(params.stamp.data[word + 1u]) : ivec3(0);
+            open += word != ~0u ? ivec3(beside) - ivec3(cell) : ivec3(0);
         }
         else
         {
             bare = bare || isUnderBrush(params.brush, beside);
         }
     }
-    return kStamp ? -taken : bare ? -brushNormal(params.brush, cell) : ivec3(0);
+    if (kStamp)
+        return taken != ivec3(0) ? -taken : open;
+    return bare ? -brushNormal(params.brush, cell) : ivec3(0);
 }
 
 // The look of a voxel that was there before.
@@ -68,9 +72,9 @@ Attribute keptLook(EditVoxel voxel)
         before = interiorLook(params.node_attributes.data[voxel.around]);
     else
         before = params.attributes.data[voxel.base];
-    if (kBares && before.normal == kNoNormal)
+    if (kExposes && before.normal == kNoNormal)
     {
-        ivec3 normal = bareNormal(voxel.cell);
+        ivec3 normal = exposedNormal(voxel.cell);
         before.normal = normal != ivec3(0) ? encodeNormal(normal) : kNoNormal;
     }
     return Attribute(isPainted(voxel) ? params.brush.color : before.color, before.normal);

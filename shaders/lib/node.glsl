@@ -86,6 +86,12 @@ bool isFullNode(uint reference)
     return (reference & kFullNodes) != 0u;
 }
 
+// A node that is no leaf word, by its reference.
+Node loadInner(Node_ConstPtr pool, uint reference)
+{
+    return pool.data[reference & ~kFullNodes];
+}
+
 // What is inside, and has no attributes, looks like the node around it.
 Attribute interiorLook(Attribute around)
 {
@@ -95,13 +101,13 @@ Attribute interiorLook(Attribute around)
 // A node by its reference as an overlay has a copy of it.
 Node loadCopyOf(Node_ConstPtr pool, uvec2_ConstPtr leaf_groups, uint reference)
 {
-    Node node = loadNodeOf(pool, leaf_groups, reference);
-    if (isLeafWord(reference) && uint64_t(leaf_groups) != 0ul && leaf_groups.data[1].x != 0u)
-    {
-        uvec2 mask = nodeMask(pool, reference);
-        node = Node(mask.x, kFullNodes | reference, mask.y, kFullNodes | reference);
-    }
-    return node;
+    bool is_filled = isLeafWord(reference) && uint64_t(leaf_groups) != 0ul;
+    if (is_filled)
+        is_filled = leaf_groups.data[1].x != 0u;
+    if (!is_filled)
+        return loadNodeOf(pool, leaf_groups, reference);
+    uvec2 mask = nodeMask(pool, reference);
+    return Node(mask.x, kFullNodes | reference, mask.y, kFullNodes | reference);
 }
 
 // A leaf by its reference, static or of an overlay, with those of its voxels that have attributes.
@@ -163,7 +169,7 @@ uint childIndex(Node node, uint cell)
 uint listedChild(Node_ConstPtr pool, uint index, uint per_word)
 {
     uint child = index;
-    if ((index & kChildList) != 0u)
+    if (per_word != 0u && (index & kChildList) != 0u)
         child = listEntry(uint64_t_ConstPtr(uint64_t(pool)), index & ~kListFlags, per_word) | (index & kLeafWords);
     return child;
 }

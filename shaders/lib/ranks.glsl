@@ -90,7 +90,7 @@ uint octreeRank(RankSource source, uint reference)
 void descendBase(RankSource source, BeforeChild_ConstPtr overlay_ranks, uint cell, bool to_leaf, bool ranked,
                  inout RankedNode at)
 {
-    uint index = childIndex(source.pool.data[at.node & ~kFullNodes], cell);
+    uint index = childIndex(loadInner(source.pool, at.node), cell);
     if (!ranked && kEntriesPerWord == 0u)
     {
         at = RankedNode(index, 0u, isFullNode(index) ? at.rank : octreeRank(source, index));

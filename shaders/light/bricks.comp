@@ -35,7 +35,7 @@ bool isOccupied(uvec3 voxel)
         occupied = hasCell(nodeMask(pool, reference), cell);
         go = occupied && level + 1u < kNodeLevels;
         if (go)
-            reference = listedChild(pool, childIndex(pool.data[reference], cell), kEntriesPerWord);
+            reference = listedChild(pool, childIndex(loadInner(pool, reference), cell), kEntriesPerWord);
     }
     return occupied;
 }
@@ -77,7 +77,7 @@ void main()
     s_luminance[cell] = 0.0;
     barrier();
     LightItem at = params.items.data[level.first + item];
-    Node leaf = loadNode(at.node);
+    Node leaf = loadLeaf(at.node);
     leaf.base_lo += at.voxels;
     leaf.base_hi += at.voxels;
     uint voxel_index = childIndex(leaf, cell);

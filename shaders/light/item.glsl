@@ -17,6 +17,14 @@ Node loadNode(uint reference)
     return loadNodeOf(Node_ConstPtr(uint64_t(params.tree.data[0].source.pool)), uvec2_ConstPtr(leaf_groups), reference);
 }
 
+// A leaf of it, with the voxels that have attributes.
+Node loadLeaf(uint reference)
+{
+    uint64_t leaf_groups = kEntriesPerWord == 0u ? uint64_t(params.tree.data[0].source.before) : 0ul;
+    return loadSurfaceOf(Node_ConstPtr(uint64_t(params.tree.data[0].source.pool)), uvec2_ConstPtr(leaf_groups),
+                         reference);
+}
+
 RankSource rankSourceOfTree()
 {
     TreeTable_ConstPtr tree = params.tree;
@@ -53,7 +61,7 @@ uint outermostVoxel(RankedNode at, uint level, bool first)
     for (uint below = level; below + 1u < kNodeLevels; ++below)
         at = childOf(at, outermostCell(loadNode(at.node), first), below + 2u == kNodeLevels,
                      direct);
-    Node leaf = loadNode(at.node);
+    Node leaf = loadLeaf(at.node);
     return childIndex(leaf, outermostCell(leaf, first)) + at.voxels;
 }
 

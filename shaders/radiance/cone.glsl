@@ -55,14 +55,14 @@ vec3 coverageOfNode(TreeTable_ConstPtr tree, uvec3 cell, uint level)
     uint reference = 0u;
     for (uint l = 1u; l <= level; ++l)
     {
-        uint index = childIndex(pool.data[reference], cellInBlock(cell >> (2u * (level - l))));
+        uint index = childIndex(loadInner(pool, reference), cellInBlock(cell >> (2u * (level - l))));
         reference = listedChild(pool, index, kEntriesPerWord);
     }
     uvec2 mask = nodeMask(pool, reference);
     vec3 blocks = coverageOf(mask);
     if (level + 1u >= kNodeLevels)
         return blocks;
-    Node node = pool.data[reference];
+    Node node = loadInner(pool, reference);
     vec3 covered = vec3(0.0);
     while (mask != uvec2(0u))
     {

@@ -24,9 +24,11 @@ uint nodeAround(uvec3 cell, uint level)
     uint node = 0u;
     for (uint k = 1u; k < level; ++k)
     {
-        uint index = childIndex(params.nodes.data[node], cellInBlock(cell >> (2u * (level - k))));
+        uint index = childIndex(loadInner(params.nodes, node), cellInBlock(cell >> (2u * (level - k))));
         node = kEntriesPerWord != 0u ? listedChild(params.nodes, index, kEntriesPerWord) : index;
     }
+    if (kEntriesPerWord == 0u)
+        node &= ~kFullNodes;
     return isLeafWord(node) ? leafWord(node) - (kEntriesPerWord == 0u ? params.leaf_groups.data[0].x : 0u) : node;
 }
 

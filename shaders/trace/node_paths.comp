@@ -36,7 +36,7 @@ void main()
     for (uint level = 0u; level < kPathLevels; ++level)
     {
         uint c = cellInBlock(cell >> (2u * (kPathLevels - 1u - level)));
-        Node n = params.octree.data[present ? node & ~kFullNodes : 0u];
+        Node n = loadInner(params.octree, present ? node : 0u);
         present = present && hasChild(n, c);
         node = childIndex(n, c);
         if (kEntriesPerWord != 0u && present)

@@ -28,6 +28,15 @@ RankedNode baseChild(TouchedNode parent, uint cell, bool are_leaves)
     return at;
 }
 
+// Whether the base tree is filled: only then, touched nodes need its attributes.
+bool isFilled()
+{
+    bool filled = false;
+    if (kEntriesPerWord == 0u && uint64_t(params.before) != 0ul)
+        filled = uvec2_ConstPtr(uint64_t(params.before)).data[1].x != 0u;
+    return filled;
+}
+
 // The attributes of such a child, which touched nodes have until they are averaged.
 Attribute baseLook(TouchedNode parent, RankedNode base)
 {
@@ -58,8 +67,7 @@ uint expandChild(uint entry, uint cell, bool dag_leaves, out uint child)
     RankedNode base = RankedNode(kNoNode, 0u, 0u);
     if (touched.base != kNoNode)
     {
-        Node base_node = params.nodes.data[touched.base & ~kFullNodes];
-        if (hasChild(base_node, cell))
+        if (hasCell(nodeMask(Node_ConstPtr(uint64_t(params.nodes)), touched.base), cell))
             base = baseChild(touched, cell, dag_leaves);
     }
     Node merged = Node(0u, 0u, 0u, 0u);
@@ -83,7 +91,7 @@ uint expandChild(uint entry, uint cell, bool dag_leaves, out uint child)
         merged.base_lo += base.voxels;
         merged.base_hi += base.voxels;
     }
-    if (kAttributes && base.node != kNoNode)
+    if (kAttributes && base.node != kNoNode && (count == 0u || isFilled()))
         params.node_attributes.data[child + params.attribute_offset] = baseLook(touched, base);
     params.counts.data[child - params.first_node] = count;
     params.nodes.data[child] = merged;

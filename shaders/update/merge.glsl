@@ -23,7 +23,6 @@ struct MergedLeaf
     Node node;
     Node base;      // its voxels that have attributes, with their indices
     uvec2 occupied; // all of its voxels
-    bool has_base;
     uint look; // index of its attributes among those of nodes: before they are averaged, what is inside has their colour
     uint head;  // record + 1 of the first layer that has the leaf
     uint count; // of its voxels
@@ -31,15 +30,14 @@ struct MergedLeaf
 
 MergedLeaf mergedLeaf(uint item)
 {
-    MergedLeaf leaf = MergedLeaf(Node(0u, 0u, 0u, 0u), Node(0u, 0u, 0u, 0u), uvec2(0u), false, 0u, 0u, 0u);
+    MergedLeaf leaf = MergedLeaf(Node(0u, 0u, 0u, 0u), Node(0u, 0u, 0u, 0u), uvec2(0u), 0u, 0u, 0u);
     LevelRange range = params.ranges.data[0];
     if (item < range.count)
     {
         uint entry = params.items.data[range.first + item].entry;
         TouchedNode touched = params.touched.data[entry];
         leaf.node = params.nodes.data[touched.node];
-        leaf.has_base = touched.base != kNoNode;
-        if (leaf.has_base)
+        if (touched.base != kNoNode)
         {
             leaf.base = loadSurfaceOf(params.nodes, params.leaf_groups, touched.base);
             leaf.occupied = nodeMask(params.nodes, touched.base);

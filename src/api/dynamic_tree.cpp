@@ -201,6 +201,7 @@ bool DynamicTree::stamp(Recorder& recorder, const Tree& octree, const std::array
                         BrushAction action)
 {
     const DeviceTree& source = shownIn(recorder.impl(), octree).tree;
+    usable(*this).enter(recorder.impl());
     const DeviceTree& edited = usable(*this).octree->tree();
     if (action != BrushAction::Carve && action != BrushAction::Fill)
     {
@@ -223,7 +224,7 @@ bool DynamicTree::stamp(Recorder& recorder, const Tree& octree, const std::array
     }
     Brush brush;
     brush.action = action;
-    brush.tree_stamp = {&source, {offset[0], offset[1], offset[2]}, static_cast<int>(source.grid.resolution())};
+    brush.tree_stamp = {&source, {offset[0], offset[1], offset[2]}};
     return usable(*this).changeEdits(recorder, [&](DynamicOctree& dynamic, vk::FrameGraph& graph)
                                      { return dynamic.edit(graph, brush); });
 }

@@ -29,14 +29,14 @@ constexpr std::uint32_t kDepthMin = 3;  // of grids that are filled
 constexpr double kLongestOfGrids = 8.0; // of meshes
 constexpr int kMarginVoxels = 2;        // around a mesh
 
-// A grid with the lattice of another one around a mesh.
+// A grid with the lattice of another one, as far as floats tell, around a mesh.
 struct MeshGrid
 {
     Grid grid;
     glm::ivec3 first{0}; // its first voxel in the other grid
 };
 
-MeshGrid gridAround(const Bounds& bounds, const Grid& whole)
+std::optional<MeshGrid> gridAround(const Bounds& bounds, const Grid& whole)
 {
     const glm::dvec3 origin(whole.origin);
     const double size = whole.voxel_size;
@@ -44,13 +44,17 @@ MeshGrid gridAround(const Bounds& bounds, const Grid& whole)
     const glm::dvec3 hi = glm::floor((glm::dvec3(bounds.max) - origin) / size);
     const glm::dvec3 edges = hi - lo + 1.0;
     const double longest = std::max({edges.x, edges.y, edges.z});
-    const double farthest = std::max({glm::length(lo), glm::length(hi)});
     const double longest_allowed = kLongestOfGrids * whole.resolution();
-    if (!(longest <= longest_allowed) || !(farthest < INT32_MAX))
+    if (!(longest <= longest_allowed))
     {
         throw Error(ErrorCode::Input, fmt::format("the mesh is {:.0f} voxels long; expected at most {:.0f}, {} times "
                                                   "the grid",
                                                   longest, longest_allowed, kLongestOfGrids));
+    }
+    if (glm::any(glm::lessThan(hi, glm::dvec3(0.0))) ||
+        glm::any(glm::greaterThanEqual(lo, glm::dvec3(whole.resolution()))))
+    {
+        return std::nullopt;
     }
     MeshGrid result;
     result.first = glm::ivec3(lo) - kMarginVoxels;
@@ -115,11 +119,12 @@ std::optional<VoxelizedMesh> voxelized(vk::HeadlessDevice& device, const Scene& 
                                        const MeshDabOptions& options)
 {
     const Bounds bounds = mesh.bounds();
-    if (bounds.empty())
+    const std::optional<MeshGrid> around = bounds.empty() ? std::nullopt : gridAround(bounds, tree.grid);
+    if (!around)
     {
         return std::nullopt;
     }
-    const auto [grid, first] = gridAround(bounds, tree.grid);
+    const auto& [grid, first] = *around;
     const bool attributes = tree.hasNodeAttributes();
     const GpuScene uploaded = uploadScene(device, mesh, attributes, tree.emission_scale);
     BuildResult built = buildOctree(device, uploaded, grid,
@@ -178,9 +183,14 @@ void forMeshDabs(vk::HeadlessDevice& device, const Scene& mesh, const DeviceTree
         return;
     }
     const int last = static_cast<int>(voxels->octree.grid.resolution()) - 1;
+    const VoxelBox whole = {glm::ivec3(0), glm::ivec3(static_cast<int>(tree.grid.resolution()) - 1)};
     for (const Block& block : blocksOf(downloadTree(device, voxels->octree)))
     {
         const VoxelBox reach = {block.lo, glm::min(block.lo + block.edge - 1, last)};
+        if (reach.movedBy(voxels->first).within(whole).isEmpty())
+        {
+            continue;
+        }
         if (block.is_full && options.action == BrushAction::Carve)
         {
             carveBox(reach.movedBy(voxels->first), tree.grid, dab);
@@ -204,11 +214,17 @@ void forDabsOutside(vk::HeadlessDevice& device, const Scene& mesh, const DeviceT
     const std::optional<VoxelizedMesh> voxels = voxelized(device, mesh, tree, options);
     const glm::ivec3 first = voxels ? voxels->first : glm::ivec3(0);
     const VoxelBox mesh_box =
-        voxels ? VoxelBox{first, first + static_cast<int>(voxels->octree.grid.resolution()) - 1} : VoxelBox{{1, 1, 1}};
+        voxels ? VoxelBox{first, first + static_cast<int>(voxels->octree.grid.resolution()) - 1} : VoxelBox::none();
     const int last = static_cast<int>(tree.grid.resolution()) - 1;
     for (const Block& block : blocksOf(contents))
     {
-        forStampBoxes({block.lo, glm::min(block.lo + block.edge - 1, last)},
+        const VoxelBox reach = {block.lo, glm::min(block.lo + block.edge - 1, last)};
+        if (reach.within(mesh_box).isEmpty())
+        {
+            carveBox(reach, tree.grid, dab);
+            continue;
+        }
+        forStampBoxes(reach,
                       [&](const VoxelBox& part)
                       {
                           const VoxelBox both = part.within(mesh_box);

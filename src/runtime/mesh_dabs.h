@@ -22,11 +22,12 @@ struct MeshDabOptions
     Fill fill = Fill::Solid;
 };
 
-/// Voxelizes a mesh on the lattice of a tree's grid, as far as it reaches, and calls dab() with stamps and boxes that
-/// together carve its voxels from the tree, or fill them in; they must be applied in that order. A stamp is a cube of
-/// 64^3 voxels at most. tree: which is edited; its emission scale is that of the mesh's emission. Waits. Throws
-/// Error{Input} for a mesh that is more than eight times as long as the grid, and Error{Memory}. Cost: the mesh's
-/// surface in voxels; stamps of the nodes of 64^3 voxels that it touches.
+/// Voxelizes a mesh on the lattice of a tree's grid, as far as floats tell and as far as it reaches, and calls dab()
+/// with stamps and boxes that together carve its voxels from the tree, or fill them in; they must be applied in that
+/// order. A stamp is a cube of 64^3 voxels at most. tree: which is edited; its emission scale is that of the mesh's
+/// emission. Waits. Throws Error{Input} for a mesh that is more than eight times as long as the grid, and
+/// Error{Memory}. Cost: the mesh's surface in voxels, and stamps of the nodes of 64^3 voxels that it touches; if it is
+/// filled in, its volume.
 void forMeshDabs(vk::HeadlessDevice& device, const Scene& mesh, const DeviceTree& tree, const MeshDabOptions& options,
                  const std::function<void(const Brush&)>& dab);
 

@@ -37,7 +37,7 @@ void edit(DynamicOctree& octree, const Brush& brush)
 }
 
 // Carves, fills and paints with so little room that states have to move, undoes a step, and places a copy.
-void editVoxels(DeviceTree fixed, bool attributes, float emission_scale)
+void editVoxels(DeviceTree fixed, bool attributes, float emission_scale, const DeviceTree& stamp_tree)
 {
     DynamicOptions options;
     options.merge = MergeRule::Average;
@@ -76,6 +76,9 @@ void editVoxels(DeviceTree fixed, bool attributes, float emission_scale)
     copied.apply(stamp, false);
     edit(octree, stamp);
     EXPECT_EQ(test::difference(cells(), copied.cells()), "");
+    const std::size_t cell_count = cells().size();
+    edit(octree, {.action = BrushAction::Carve, .tree_stamp = {&stamp_tree, {1, 2, 3}}});
+    EXPECT_LT(cells().size(), cell_count);
 }
 
 // Edits the scene as an octree, as a DAG, and without attributes; compiling more variants would take too long.
@@ -89,12 +92,13 @@ void editTrees(const Scene& scene, const Grid& grid)
         BuildOptions build;
         build.attributes = attributes;
         build.keep_sums = attributes;
+        const DeviceTree stamp = buildOctree(device(), gpu_scene, grid, build).octree;
         if (attributes)
         {
-            editVoxels(buildOctree(device(), gpu_scene, grid, build).octree, attributes, scale);
+            editVoxels(buildOctree(device(), gpu_scene, grid, build).octree, attributes, scale, stamp);
         }
         BuildResult built = buildOctree(device(), gpu_scene, grid, build);
-        editVoxels(compress(device(), std::move(built.octree)).dag, attributes, scale);
+        editVoxels(compress(device(), std::move(built.octree)).dag, attributes, scale, stamp);
     }
 }
 

@@ -42,7 +42,7 @@ TreeData filledTree(const Scene& scene, const Grid& grid)
                         buildOctree(device(), uploadScene(device(), scene, true), grid, {.fill = Fill::Solid}).octree);
 }
 
-// The tree after what record() does to it, as a picture of it shows it.
+// The tree after what edit() does to it.
 TreeData edited(const TreeData& tree,
                 const std::function<void(const DeviceTree&, std::function<void(const Brush&)>)>& edit)
 {
@@ -116,7 +116,7 @@ TEST(MeshDabs, AnOctreeAsAStampDoesWhatACopyOfItsVoxelsDoes)
     const GpuScene scene = uploadScene(device(), test::sphereScene(glm::vec3(14, 17, 15), 12, 12), true);
     for (const auto& [action, fill] : {std::pair(BrushAction::Carve, Fill::Solid),
                                        {BrushAction::Carve, Fill::None},
-                                       {BrushAction::Fill, Fill::None}})
+                                       {BrushAction::Fill, Fill::Solid}})
     {
         const DeviceTree octree = buildOctree(device(), scene, small, {.fill = fill}).octree;
         const VoxelClip clip = copyVoxels(device(), octree, 0, {glm::ivec3(0), glm::ivec3(31)});
@@ -126,7 +126,7 @@ TEST(MeshDabs, AnOctreeAsAStampDoesWhatACopyOfItsVoxelsDoes)
                                              { dab({.action = action, .stamp = clip.stampAt(offset, grid)}); });
             const TreeData result = edited(ball,
                                            [&](const DeviceTree& /*tree*/, const auto& dab) {
-                                               dab({.action = action, .tree_stamp = {&octree, offset, 32}});
+                                               dab({.action = action, .tree_stamp = {&octree, offset}});
                                            });
             EXPECT_EQ(test::treeDifference(result, expected), "");
             EXPECT_NE(test::treeDifference(result, ball), "");

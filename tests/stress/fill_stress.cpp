@@ -16,6 +16,7 @@
 #include <cstdint>
 #include <cstdio>
 #include <numbers>
+#include <random>
 #include <string>
 #include <utility>
 #include <vector>
@@ -35,8 +36,9 @@ struct Options
 
 constexpr std::array<Fill, 2> kFills = {Fill::Solid, Fill::Parity};
 
-// Returns whether there is no difference.
-bool compare(vk::HeadlessDevice& device, const std::string& name, const Scene& scene, const Grid& grid)
+// Returns whether there is no difference. may_be_open: a scene that is not closed is left out.
+bool compare(vk::HeadlessDevice& device, const std::string& name, const Scene& scene, const Grid& grid,
+             bool may_be_open)
 {
     bool is_well = true;
     for (const Coverage coverage : {Coverage::Thin, Coverage::Conservative})
@@ -50,7 +52,7 @@ bool compare(vk::HeadlessDevice& device, const std::string& name, const Scene& s
             if (!found.is_closed)
             {
                 fmt::print("{}: not closed, left out\n", what);
-                return true;
+                return may_be_open;
             }
             fmt::print("{}: {} inside, {} wrong{}\n", what, found.interior, found.wrong,
                        found.same_surface ? "" : ", another surface");
@@ -83,7 +85,7 @@ std::uint64_t compareSoups(vk::HeadlessDevice& device, const Options& options)
     return differences;
 }
 
-// The point of a closed surface at (u, v), from 0 to 1 and periodic in both.
+// The closed surface of point(u, v), which is periodic in both from 0 to 1.
 template <typename Point> Scene tube(std::uint32_t steps, const Point& point)
 {
     const auto at = [&](std::uint32_t u, std::uint32_t v)
@@ -142,8 +144,8 @@ bool run(const Options& options)
     {
         const Grid grid = {glm::vec3(0), 1.0F, depth};
         const auto edge = static_cast<float>(grid.resolution());
-        is_well = compare(device, "nested spheres", nestedSpheres(edge), grid) && is_well;
-        is_well = compare(device, "a tube through itself", knottedTube(edge), grid) && is_well;
+        is_well = compare(device, "nested spheres", nestedSpheres(edge), grid, false) && is_well;
+        is_well = compare(device, "a tube through itself", knottedTube(edge), grid, false) && is_well;
     }
     for (const char* const name : {"dragon.glb", "bunny.glb", "buddha_113k.glb", "asian_dragon_28k.glb", "knot.glb"})
     {
@@ -156,7 +158,7 @@ bool run(const Options& options)
         const Scene scene = loadGltf(*path);
         for (const std::uint32_t depth : {6U, 9U})
         {
-            is_well = compare(device, name, scene, Grid::around(scene.bounds(), depth)) && is_well;
+            is_well = compare(device, name, scene, Grid::around(scene.bounds(), depth), true) && is_well;
         }
         Scene turned = scene;
         for (Instance& instance : turned.instances)
@@ -164,7 +166,8 @@ bool run(const Options& options)
             const float s = std::sqrt(0.5F); // by 45 degrees about z
             instance.transform = glm::mat4(s, s, 0, 0, -s, s, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1) * instance.transform;
         }
-        is_well = compare(device, std::string(name) + " turned", turned, Grid::around(turned.bounds(), 8)) && is_well;
+        is_well =
+            compare(device, std::string(name) + " turned", turned, Grid::around(turned.bounds(), 8), true) && is_well;
     }
     return is_well;
 }

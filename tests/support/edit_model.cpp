@@ -264,10 +264,11 @@ bool EditModel::isClose(const Brush& brush, const VoxelBox& box, std::uint64_t c
 
 // The direction that a voxel faces where a brush that carves takes a neighbour of it by a face: to the brush, or
 // against the normals of what a stamp takes.
-glm::ivec3 EditModel::bareNormal(const Brush& brush, const VoxelBox& box, const glm::ivec3& voxel)
+glm::ivec3 EditModel::exposedNormal(const Brush& brush, const VoxelBox& box, const glm::ivec3& voxel)
 {
     bool is_bare = false;
     glm::ivec3 taken(0);
+    glm::ivec3 open(0);
     for (int side = 0; side < 6; ++side)
     {
         glm::ivec3 beside = voxel;
@@ -283,14 +284,17 @@ glm::ivec3 EditModel::bareNormal(const Brush& brush, const VoxelBox& box, const 
         else if (const auto look = stamped(*brush.stamp, beside, oracle::mortonEncode(glm::uvec3(beside)) & 63U))
         {
             taken += unfolded(look->attribute.normal);
+            open += beside - voxel;
         }
     }
-    return brush.stamp != nullptr ? -taken : is_bare ? -outwards(brush, voxel) : glm::ivec3(0);
+    return brush.stamp != nullptr ? (taken != glm::ivec3(0) ? -taken : open)
+           : is_bare              ? -outwards(brush, voxel)
+                                  : glm::ivec3(0);
 }
 
 // Of a filled tree, what a brush that carves lays bare changes, too. Leaves that it comes close to, and that have
 // voxels without attributes or that a brush has changed before, count as changed.
-void EditModel::layBare(const Brush& brush, const VoxelBox& box, Leaves& changed)
+void EditModel::expose(const Brush& brush, const VoxelBox& box, Leaves& changed)
 {
     Leaves bared;
     for (const auto& [code, cell] : m_voxels)
@@ -306,7 +310,7 @@ void EditModel::layBare(const Brush& brush, const VoxelBox& box, Leaves& changed
         const auto end = m_voxels.lower_bound((leaf + 1) << 6);
         for (auto at = m_voxels.lower_bound(leaf << 6); at != end; ++at)
         {
-            const glm::ivec3 normal = bareNormal(brush, box, glm::ivec3(oracle::mortonDecode(at->first)));
+            const glm::ivec3 normal = exposedNormal(brush, box, glm::ivec3(oracle::mortonDecode(at->first)));
             if (at->second.attribute.normal == gpu::kNoNormal && normal != glm::ivec3(0))
             {
                 at->second.attribute = {lookOf(at->second).color, normalCode(normal)};
@@ -342,7 +346,7 @@ void EditModel::apply(const Brush& brush, bool emits)
     }
     if (m_filled && brush.action == BrushAction::Carve)
     {
-        layBare(brush, box, changed);
+        expose(brush, box, changed);
     }
     changeLeaves(changed);
 }

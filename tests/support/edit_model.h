@@ -50,9 +50,9 @@ private:
     using Leaves = std::set<std::uint64_t>;
 
     void apply(const Brush& brush, const glm::ivec3& voxel, bool emits, Leaves& changed);
-    void layBare(const Brush& brush, const VoxelBox& box, Leaves& changed);
+    void expose(const Brush& brush, const VoxelBox& box, Leaves& changed);
     [[nodiscard]] bool isClose(const Brush& brush, const VoxelBox& box, std::uint64_t code) const;
-    static glm::ivec3 bareNormal(const Brush& brush, const VoxelBox& box, const glm::ivec3& voxel);
+    static glm::ivec3 exposedNormal(const Brush& brush, const VoxelBox& box, const glm::ivec3& voxel);
     void changeLeaves(const Leaves& changed);
     [[nodiscard]] gpu::Attribute lookAround(std::uint32_t level, std::uint64_t code, const Nodes& nodes) const;
     [[nodiscard]] bool isAnythingBelow(std::uint32_t level, std::uint64_t code) const;

@@ -1,8 +1,15 @@
 // SPDX-License-Identifier: MIT
 #include "core/edit/brush.h"
 
+#include "core/tree/device_tree.h"
+
 namespace zvo
 {
+
+VoxelBox TreeStamp::box() const
+{
+    return {offset, offset + static_cast<int>(tree->grid.resolution()) - 1};
+}
 
 std::vector<Brush> partsOf(const Brush& brush, const Grid& grid)
 {

@@ -37,11 +37,11 @@ struct TreeStamp
 {
     const DeviceTree* tree = nullptr; // null: no stamp
     gpu::ivec3 offset{0};             // of its first voxel in the grid that is edited
-    int resolution = 0;               // of its grid
 
     bool operator==(const TreeStamp&) const = default;
 
-    [[nodiscard]] VoxelBox box() const { return {offset, offset + resolution - 1}; }
+    /// The voxels of its grid. Only with a tree.
+    [[nodiscard]] VoxelBox box() const;
 };
 
 /// A dab of a brush on the voxels of a grid.

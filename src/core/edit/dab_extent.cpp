@@ -53,8 +53,8 @@ std::optional<DabExtent> DabExtent::of(const Brush& brush, const Grid& grid, boo
         throw Error(ErrorCode::Usage, fmt::format("a dab is at most {} voxels long", gpu::kDabEdgeMax));
     }
     DabExtent extent;
-    extent.bares = filled && brush.action == BrushAction::Carve;
-    for (glm::length_t axis = 0; axis < 3 && extent.bares; ++axis)
+    extent.exposes = filled && brush.action == BrushAction::Carve;
+    for (glm::length_t axis = 0; axis < 3 && extent.exposes; ++axis)
     {
         extent.grown |= (lo[axis] != 0 ? 1U : 0U) << axis | (hi[axis] != last[axis] ? 8U : 0U) << axis;
         lo[axis] -= lo[axis] != 0 ? 1 : 0;

@@ -43,7 +43,7 @@ void recordFind(vk::FrameGraph& graph, const DeviceTree& tree, std::uint32_t roo
     vk::Pass pass = graph.addPass(gpu::edit::Find{.entries_per_word = tree.entriesPerWord(),
                                                   .attributes = tree.hasNodeAttributes(),
                                                   .stamp = stamp.count() != 0,
-                                                  .bares = extent.bares});
+                                                  .exposes = extent.exposes});
     gpu::EditFindParams params{};
     params.nodes = pass.read(tree.nodes);
     readRankSource(pass, tree, params);
@@ -159,8 +159,8 @@ void recordAttributes(vk::FrameGraph& graph, EditSite& site, const gpu::Brush& b
 {
     const bool emits = site.tree.emission_words.count() != 0;
     const bool has_stamp = stamp.count() != 0;
-    recordVoxelPass(graph, gpu::edit::Voxels{.emits = emits, .stamp = has_stamp, .bares = extent.bares}, site, brush,
-                    extent, slots.to, stamp, buffers);
+    recordVoxelPass(graph, gpu::edit::Voxels{.emits = emits, .stamp = has_stamp, .exposes = extent.exposes}, site,
+                    brush, extent, slots.to, stamp, buffers);
     if (emits)
     {
         recordVoxelPass(graph, gpu::edit::Emission{.stamp = has_stamp}, site, brush, extent, slots.to, stamp, buffers);

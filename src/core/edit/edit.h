@@ -23,7 +23,7 @@ struct DabExtent
     std::uint32_t inner_count = 0; // those above the leaves
     std::uint32_t node_bound = 0;  // nodes that the dab's copies take at most
     std::uint32_t voxel_bound = 0; // voxels of the changed leaves at most, alignment included
-    bool bares = false;            // a filled tree is carved: the box has a voxel more on the sides that `grown` says
+    bool exposes = false;          // a filled tree is carved: the box has a voxel more on the sides that `grown` says
     gpu::uint grown = 0;           // bits of gpu::Brush::kind, from gpu::kBrushGrownShift on
 
     /// The extent of a dab. filled: voxels of the tree are inside, and have no attributes until they are laid bare.

@@ -19,6 +19,8 @@ struct VoxelBox
     /// The smallest box with two voxels.
     static VoxelBox of(const glm::ivec3& a, const glm::ivec3& b) { return {glm::min(a, b), glm::max(a, b)}; }
 
+    static VoxelBox none() { return {glm::ivec3(0), glm::ivec3(-1)}; }
+
     [[nodiscard]] bool isEmpty() const { return glm::any(glm::greaterThan(lo, hi)); }
     [[nodiscard]] glm::ivec3 size() const { return hi - lo + 1; }
     [[nodiscard]] std::uint64_t volume() const

@@ -1,18 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include "io/scene/edit_script.h"
 
-#include "core/base/input_error.h"
 #include "core/base/read_file.h"
 #include "io/file/json_cursor.h"
 #include "io/scene/place.h"
 #include "io/scene/scene_part.h"
 
-#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include <algorithm>
 #include <charconv>
-#include <cmath>
 #include <span>
 #include <utility>
 
@@ -24,8 +20,7 @@ namespace
 
 constexpr std::string_view kEditSchema = "zvo.edits/1";
 constexpr std::uint32_t kDefaultColor = 0xC0C0C0;
-constexpr std::size_t kKeep = 3;       // among the names of actions
-constexpr double kFarthestVoxel = 1e9; // along an axis; beyond it nothing lies in a grid
+constexpr std::size_t kKeep = 3; // among the names of actions
 
 // "#rrggbb" as red | green << 8 | blue << 16.
 std::uint32_t readColor(const JsonCursor& color)
@@ -41,14 +36,14 @@ std::uint32_t readColor(const JsonCursor& color)
     return value >> 16 | (value & 0xFF00U) | (value & 0xFFU) << 16;
 }
 
-gpu::vec3 readEmission(const JsonCursor& emission)
+glm::vec3 readEmission(const JsonCursor& emission)
 {
     const glm::dvec3 radiance = emission.vector();
     if (glm::any(glm::lessThan(radiance, glm::dvec3(0.0))))
     {
         throw emission.mismatch("a radiance, three numbers from 0 on");
     }
-    return gpu::vec3(radiance);
+    return glm::vec3(radiance);
 }
 
 EditSphere readSphere(const JsonCursor& sphere)
@@ -103,6 +98,10 @@ ScriptedEdit readEdit(const JsonCursor& json, const std::filesystem::path& folde
     {
         throw mesh->error("goes with carve, fill and keep, and looks as its file says");
     }
+    if (edit.action == BrushAction::Carve && (json.find("color") || json.find("emission")))
+    {
+        throw json.error("has a look, but what is carved has none");
+    }
     if (!mesh && edit.outside)
     {
         throw json.at("action").error("is \"keep\", which goes with a mesh");
@@ -120,12 +119,6 @@ ScriptedEdit readEdit(const JsonCursor& json, const std::filesystem::path& folde
         edit.shape = readMesh(*mesh, folder);
     }
     return edit;
-}
-
-// The voxel whose number along each axis is a position, rounded down, as far as numbers matter.
-glm::ivec3 voxelOf(const glm::dvec3& position)
-{
-    return glm::ivec3(glm::clamp(glm::floor(position), -kFarthestVoxel, kFarthestVoxel));
 }
 
 } // namespace
@@ -158,31 +151,6 @@ Scene loadEditMesh(const EditMesh& mesh)
         instance.transform = glm::mat4(mesh.transform * glm::dmat4(instance.transform));
     }
     return scene;
-}
-
-std::optional<Brush> brushOf(const ScriptedEdit& edit, const Grid& grid, const std::filesystem::path& path)
-{
-    const double size = grid.voxel_size;
-    const glm::dvec3 origin(grid.origin);
-    Brush brush = {.action = edit.action, .color = edit.color, .emission = edit.emission};
-    if (const auto* const sphere = std::get_if<EditSphere>(&edit.shape))
-    {
-        const double voxels = std::max(std::round(sphere->radius / size - 0.5), 0.0); // beside the centre
-        if (voxels > gpu::kBrushRadiusMax)
-        {
-            throw inputError(path,
-                             fmt::format("{}.sphere.radius is {:g}, {:.0f} voxels; expected at most {:g}", edit.where,
-                                         sphere->radius, voxels, (gpu::kBrushRadiusMax + 0.5) * size));
-        }
-        brush.center = voxelOf((sphere->center - origin) / size);
-        brush.radius = static_cast<std::uint32_t>(voxels);
-        return brush;
-    }
-    const auto& box = std::get<EditSpan>(edit.shape);
-    brush.shape = BrushShape::Box;
-    brush.center = voxelOf((box.min - origin) / size + 0.5);              // whose centre is the first one inside
-    brush.span = voxelOf((box.max - origin) / size - 0.5) - brush.center; // to the last one
-    return glm::any(glm::lessThan(brush.span, glm::ivec3(0))) ? std::nullopt : std::optional(brush);
 }
 
 } // namespace zvo

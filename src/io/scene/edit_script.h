@@ -1,15 +1,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "core/base/grid.h"
-#include "core/edit/brush.h"
 #include "io/scene/load_scene.h"
 #include "zvo/types.h"
 
 #include <cstdint>
 #include <filesystem>
-#include <glm/glm.hpp>
-#include <optional>
 #include <string>
 #include <string_view>
 #include <variant>
@@ -48,7 +44,7 @@ struct ScriptedEdit
     bool outside = false; // Carve, of a mesh: what it does not have
     std::variant<EditSphere, EditSpan, EditMesh> shape;
     std::uint32_t color = 0; // Fill, Paint: sRGB red | green << 8 | blue << 16
-    gpu::vec3 emission{0.0F};
+    glm::vec3 emission{0.0F};
 };
 
 /// The edits of a script, whose schema is in docs/editing.md; path is for messages, and files of meshes are beside it.
@@ -58,9 +54,5 @@ std::vector<ScriptedEdit> readEditScript(const std::filesystem::path& path);
 
 /// The mesh of an edit, placed. Throws as loadScene().
 Scene loadEditMesh(const EditMesh& mesh);
-
-/// The brush of a sphere or a box on the voxels of a grid; nothing for a box between the centres of voxels. Throws
-/// Error{Input} for a sphere that is larger than a brush may be.
-std::optional<Brush> brushOf(const ScriptedEdit& edit, const Grid& grid, const std::filesystem::path& path);
 
 } // namespace zvo

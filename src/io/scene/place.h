@@ -5,8 +5,6 @@
 #include "io/file/json_cursor.h"
 #include "io/scene/load_scene.h"
 
-#include <glm/glm.hpp>
-
 namespace zvo
 {
 

@@ -3,10 +3,13 @@
 #include "core/light/light_tree.h"
 
 #include "core/base/kernels.h"
+#include "core/dynamic/dynamic_octree.h"
 #include "core/light/kernels/light_test/choose.h"
 #include "core/tree/tree_table.h"
+#include "runtime/trees.h"
 #include "support/light_device.h"
 #include "support/lit_voxels.h"
+#include "support/scenes.h"
 
 #include <gtest/gtest.h>
 
@@ -241,6 +244,41 @@ TEST(LightTree, SumsUpWhatVoxelsGive)
     }
     const Lights lights(voxels, 5);
     EXPECT_NEAR(lights.nodes().front().power, expected, 1e-5 * expected);
+}
+
+// A solid ball that glows, and a voxel that a brush makes beside it: the leaves of the ball are copies of leaf words
+// then.
+TEST(LightTree, HasTheLampsOfFilledTreesThatWereEdited)
+{
+    Scene scene = test::sphereScene(glm::vec3(24.5F), 12.0F, 12);
+    scene.materials.front().emission = glm::vec3(2.0F);
+    const GpuScene uploaded = uploadScene(lightDevice(), scene, true);
+    const Grid grid = {glm::vec3(0), 1.0F, 6};
+    DynamicOctree octree(lightDevice(), buildOctree(lightDevice(), uploaded, grid, {.fill = Fill::Solid}).octree,
+                         {.merge = MergeRule::DynamicWins, .emission_scale = uploaded.emission_scale});
+    const auto power = [&]
+    {
+        LightTree lights(lightDevice().device(), octree.tree());
+        vk::BufferOf<gpu::TreeTable> table =
+            lightDevice().makeBuffer<gpu::TreeTable>("table", std::array{treeTable(octree.tree())});
+        lightDevice().run([&](vk::FrameGraph& graph) { buildLightTree(graph, octree.tree(), table, lights); });
+        return lightDevice().download(lights.nodes).front().power;
+    };
+    const auto frame = [&](const auto& record)
+    {
+        const std::uint64_t number = octree.beginFrame();
+        lightDevice().run(record);
+        octree.frameDone(number);
+    };
+    frame([&](vk::FrameGraph& graph) { octree.update(graph); });
+    const float before = power();
+    EXPECT_GT(before, 1000.0F);
+    frame(
+        [&](vk::FrameGraph& graph) {
+            octree.edit(graph, {.action = BrushAction::Fill, .center = {33, 33, 33}, .color = 0xFFFFFF});
+        });
+    EXPECT_EQ(octree.edits().voxelCount(), octree.tree().occupiedCount() + 1);
+    EXPECT_NEAR(power(), before, 1e-5F * before);
 }
 
 } // namespace

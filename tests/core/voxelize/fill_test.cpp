@@ -52,8 +52,6 @@ TEST(Fill, OfSpheresIsWhatTheirWindingNumbersSay)
     }
 }
 
-// Closed soups of tetrahedra whose corners are a multiple of `step` lattice units, so that lines through voxels'
-// centres meet edges, corners and planes.
 TEST(Fill, OfTetrahedraAnywhereIsWhatTheirWindingNumbersSay)
 {
     std::mt19937 random(1);

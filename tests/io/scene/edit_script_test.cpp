@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "io/scene/edit_script.h"
 
+#include "runtime/script_brush.h"
 #include "zvo/error.h"
 
 #include <gtest/gtest.h>
