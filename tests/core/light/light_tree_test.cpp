@@ -275,7 +275,7 @@ TEST(LightTree, HasTheLampsOfFilledTreesThatWereEdited)
     EXPECT_GT(before, 1000.0F);
     frame(
         [&](vk::FrameGraph& graph) {
-            octree.edit(graph, {.action = BrushAction::Fill, .center = {33, 33, 33}, .color = 0xFFFFFF});
+            octree.edit(graph, {.action = BrushAction::Fill, .center = {39, 24, 24}, .color = 0xFFFFFF});
         });
     EXPECT_EQ(octree.edits().voxelCount(), octree.tree().occupiedCount() + 1);
     EXPECT_NEAR(power(), before, 1e-5F * before);
