@@ -137,19 +137,21 @@ void beginBelowRoot(vec3 origin, vec3 inverse, uint mirror, uvec3 limits, inout 
 // in the leaf.
 uint voxelIndex(uint leaf, uint cell)
 {
-    if (kEntriesPerWord == 0u && !isLeafWord(leaf))
-    {
-        uint base = loadHalf(2u * leaf).y; // of an overlay's leaf, whose voxels may be those of a leaf word
-        leaf = isFullNode(base) ? (isLeafWord(base) ? base & ~kFullNodes : base) : leaf;
-        if (isFullNode(leaf))
-            return kInteriorIndex;
-    }
     bool is_word = isLeafWord(leaf);
     uint pair = is_word ? leafWord(leaf) >> 1 : leaf;
     uint surface = pair;
     if (kEntriesPerWord == 0u && is_word)
         surface += loadLeafGroup(1u).x;
     uvec4 words = loadPair(surface);
+    if (kEntriesPerWord == 0u && !is_word && isFullNode(words.y)) // of a full node, or with the voxels of a leaf word
+    {
+        is_word = isLeafWord(words.y);
+        if (!is_word)
+            return kInteriorIndex;
+        leaf = words.y & ~kFullNodes;
+        pair = leafWord(leaf) >> 1;
+        words = loadPair(pair + loadLeafGroup(1u).x);
+    }
     bool is_second = is_word && (leaf & 1u) != 0u;
     bool is_upper = cell >= 32u;
     uint below = (1u << (cell & 31u)) - 1u;
