@@ -48,7 +48,7 @@ float brightestEmission(const AnimatedScene& animated)
 LiveScene::LiveScene(vk::HeadlessDevice& device, const TreeData& tree, const LiveOptions& options)
     : m_device(device), m_warn(options.warn), m_fixed(uploadTree(device, tree))
 {
-    m_info.fixed.voxel_count = tree.voxel_count;
+    m_info.fixed.voxel_count = tree.occupiedCount();
     m_info.fixed.node_count = tree.nodes.size();
     m_info.fixed.geometry_bytes = tree.geometryBytes();
     m_info.fixed.attribute_bytes = tree.attributeBytes();

@@ -33,7 +33,7 @@ StaticPart makeStaticPart(vk::HeadlessDevice& device, Scene scene, const Grid& g
     }
     part.tree = std::move(built.octree);
     part.info.triangle_count = triangle_count;
-    part.info.voxel_count = part.tree.voxel_count;
+    part.info.voxel_count = part.tree.occupiedCount();
     part.info.node_count = part.tree.node_count;
     part.info.geometry_bytes = part.tree.geometryBytes();
     part.info.attribute_bytes = part.tree.attributeBytes();

@@ -18,6 +18,7 @@
 #include <cstdint>
 #include <functional>
 #include <iterator>
+#include <utility>
 #include <vector>
 
 namespace zvo
@@ -114,11 +115,12 @@ TEST(MeshDabs, AnOctreeAsAStampDoesWhatACopyOfItsVoxelsDoes)
     const TreeData ball = filledTree(test::sphereScene(glm::vec3(30, 31, 33), 29, 16), grid);
     const Grid small = {glm::vec3(0), 1.0F, 5};
     const GpuScene scene = uploadScene(device(), test::sphereScene(glm::vec3(14, 17, 15), 12, 12), true);
-    for (const auto& [action, fill] : {std::pair(BrushAction::Carve, Fill::Solid),
-                                       {BrushAction::Carve, Fill::None},
-                                       {BrushAction::Fill, Fill::Solid}})
+    for (const std::pair<BrushAction, Fill>& kind : {std::pair(BrushAction::Carve, Fill::Solid),
+                                                     {BrushAction::Carve, Fill::None},
+                                                     {BrushAction::Fill, Fill::Solid}})
     {
-        const DeviceTree octree = buildOctree(device(), scene, small, {.fill = fill}).octree;
+        const BrushAction action = kind.first;
+        const DeviceTree octree = buildOctree(device(), scene, small, {.fill = kind.second}).octree;
         const VoxelClip clip = copyVoxels(device(), octree, 0, {glm::ivec3(0), glm::ivec3(31)});
         for (const glm::ivec3& offset : {glm::ivec3(16, 20, 12), {-7, 33, 41}, {1, 2, 3}})
         {
