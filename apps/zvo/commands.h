@@ -148,6 +148,44 @@ struct EditOptions
 /// `zvo edit`: carves, fills and paints voxels of a tree as a script says, and writes the result. Throws Error.
 void edit(const EditOptions& options);
 
+/// What a step of `zvo algebra` does.
+enum class AlgebraKind : std::uint8_t
+{
+    Unite,
+    Intersect,
+    Subtract,
+    Dilate,
+    Erode,
+    Open,
+    Close,
+    Enclose,
+    KeepLargest,
+    KeepFrom
+};
+
+struct AlgebraStep
+{
+    AlgebraKind kind = AlgebraKind::Unite;
+    std::filesystem::path file; // of a second tree
+    std::uint64_t number = 0;   // of voxels, or of components
+};
+
+struct AlgebraOptions
+{
+    std::filesystem::path file;
+    std::vector<AlgebraStep> steps; // in the order of the command line
+    std::optional<bool> corners;    // neighbours are all 26, or the 6 across faces; not given: 26 of components, else 6
+    std::string components;         // a CSV file of their sizes, or empty
+    OutputOptions output;           // its path may be empty
+    std::string format;             // empty: the output's extension says
+    std::optional<TreeStructure> structure; // of a .zvo output; not given: a DAG, or what is filled, an octree
+    bool strict = false;                    // refuses to leave something out
+    DeviceOptions device;
+};
+
+/// `zvo algebra`: makes one tree of others: sets, morphology, components, enclosed space. Throws Error.
+void algebra(const AlgebraOptions& options);
+
 struct QueryOptions
 {
     std::filesystem::path file;

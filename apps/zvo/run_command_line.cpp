@@ -102,6 +102,15 @@ where cut.json is
     {"action": "carve", "mesh": {"file": "wedge.obj", "place": {"translation": [0, 1, 0]}}},
     {"action": "paint", "sphere": {"centre": [0, 2, 0], "radius": 0.5}, "color": "#c02010"}]})";
 
+constexpr const char* kAlgebraFooter = R"(
+Steps are carried out in the order in which they stand; docs/algebra.md. Trees that are combined have the same grid:
+build them with the same --resolution and --bounds.
+
+Examples:
+  zvo algebra scan.zvo --keep-largest 1 --close 2 --enclose -o part.zvo
+  zvo algebra room.zvo --unite chair.zvo --subtract door.zvo -o furnished.zvo
+  zvo algebra scan.zvo --components sizes.csv)";
+
 constexpr const char* kQueryFooter = R"(
 Questions stand one in a line, of numbers with commas between them, in world units; docs/queries.md tells what is found.
   --points  x,y,z                          which voxel is the point in
@@ -307,6 +316,72 @@ void addOptions(CLI::App& edit, EditOptions& options)
     addDeviceOptions(edit, options.device);
 }
 
+void addOptions(CLI::App& algebra, AlgebraOptions& options)
+{
+    algebra.add_option("FILE", options.file, "a .zvo or .vox file")->required()->type_name("FILE");
+    const auto addFile = [&](const char* name, AlgebraKind kind, const char* what)
+    {
+        algebra
+            .add_option_function<std::string>(
+                name,
+                [&options, kind](const std::string& file) {
+                    options.steps.push_back({kind, file, 0});
+                },
+                what)
+            ->type_name("FILE")
+            ->trigger_on_parse()
+            ->group("Steps");
+    };
+    const auto addCount = [&](const std::string& name, AlgebraKind kind, std::uint32_t most, const char* what)
+    {
+        algebra
+            .add_option_function<std::string>(
+                name,
+                [&options, kind, name, most](const std::string& text) {
+                    options.steps.push_back({kind, {}, integerIn(1, most)(name, text)});
+                },
+                what)
+            ->type_name("N")
+            ->trigger_on_parse()
+            ->group("Steps");
+    };
+    constexpr std::uint32_t kVoxelsMax = 256;
+    addFile("--unite", AlgebraKind::Unite, "adds the voxels of another tree");
+    addFile("--intersect", AlgebraKind::Intersect, "leaves the voxels that another tree has, too");
+    addFile("--subtract", AlgebraKind::Subtract, "takes away the voxels of another tree");
+    addCount("--dilate", AlgebraKind::Dilate, kVoxelsMax, "adds the neighbours of voxels, N times");
+    addCount("--erode", AlgebraKind::Erode, kVoxelsMax, "takes away voxels beside empty ones, N times");
+    addCount("--open", AlgebraKind::Open, kVoxelsMax, "erodes and dilates, which takes away what is thin");
+    addCount("--close", AlgebraKind::Close, kVoxelsMax, "dilates and erodes, which closes holes and gaps");
+    algebra
+        .add_flag_callback(
+            "--enclose",
+            [&options] {
+                options.steps.push_back({AlgebraKind::Enclose, {}, 0});
+            },
+            "fills what voxels enclose, by a flood from outside through faces of empty cells")
+        ->trigger_on_parse()
+        ->group("Steps");
+    addCount("--keep-largest", AlgebraKind::KeepLargest, UINT32_MAX, "keeps the N largest components");
+    addCount("--keep-from", AlgebraKind::KeepFrom, UINT32_MAX, "keeps the components of N voxels or more");
+    addValue(
+        algebra, "--neighbors", options.corners,
+        [](std::string_view option, std::string_view text) {
+            return oneOf(option, text, {"6", "26"}) == "26";
+        },
+        "6|26",
+        "neighbours of a voxel: across faces, or all (default: 26 of components, as thin surfaces hold together by, "
+        "else 6)");
+    addText(algebra, "--components", options.components, "FILE",
+            "a CSV file of the components of the result: their voxels, and the cell of one of these")
+        ->group("Output");
+    addStructureOption(algebra, options.structure,
+                       "of a .zvo output, an octree or a DAG (default: a DAG, or an octree of what is filled)");
+    addTreeOutput(algebra, options.output, options.format, options.strict);
+    algebra.get_option("--output")->required(false);
+    addDeviceOptions(algebra, options.device);
+}
+
 void addOptions(CLI::App& query, QueryOptions& options)
 {
     query.add_option("FILE", options.file, "a .zvo or .vox file")->required()->type_name("FILE");
@@ -377,6 +452,8 @@ int runCommandLine(int argc, const char* const* argv)
             commands.add("convert", "make another kind of file of a .zvo or .vox file", kConvertFooter, addOptions,
                          convert);
             commands.add("edit", "carve, fill and paint voxels of a .zvo or .vox file", kEditFooter, addOptions, edit);
+            commands.add("algebra", "unite, dilate, clean and fill the voxels of .zvo or .vox files", kAlgebraFooter,
+                         addOptions, algebra);
             commands.add("query", "ask a .zvo or .vox file about points, rays and boxes", kQueryFooter, addOptions,
                          query);
             commands.add("info", "list the Vulkan devices and what they offer", kInfoFooter, addOptions, info);

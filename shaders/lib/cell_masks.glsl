@@ -52,6 +52,12 @@ uvec2 cellsFrom(uint number)
     return uvec2(number < 32u ? ~0u << number : 0u, number <= 32u ? ~0u : number < 64u ? ~0u << (number - 32u) : 0u);
 }
 
+// The mask of one cell.
+uvec2 cellBit(uint cell)
+{
+    return cell < 32u ? uvec2(1u << cell, 0u) : uvec2(0u, 1u << (cell & 31u));
+}
+
 // The lowest number of a cell. There must be one.
 uint firstCell(uvec2 cells)
 {

@@ -17,7 +17,7 @@ namespace
 const std::vector<WrongUse>& wrongUses()
 {
     static const std::vector<WrongUse> uses = {
-        {"NoCommand", 2, "", {"render, voxelize, build, inspect, validate, convert, edit, query or info"}},
+        {"NoCommand", 2, "", {"render, voxelize, build, inspect, validate, convert, edit, algebra, query or info"}},
         {"UnknownCommand", 2, "bake cube.glb -o a.png", {"no command or option bake; see zvo --help"}},
         {"MistypedCommand", 2, "rendr cube.glb -o a.png", {"rendr (did you mean render?); see zvo --help"}},
         {"MistypedOption",

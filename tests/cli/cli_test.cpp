@@ -133,6 +133,33 @@ TEST_F(CliRun, EditsTreesByScripts)
     expectError("edit full.zvo bad.json -o a.zvo", 3, {"no.obj"});
 }
 
+TEST_F(CliRun, CalculatesWithTreesInTheOrderOfTheCommandLine)
+{
+    run("build cube.glb --resolution 16 --structure svo -o shell.zvo");
+    const auto voxels = [&](const std::string& steps)
+    {
+        run("algebra shell.zvo " + steps + " -o a.morton -f");
+        return file("a.morton").size() / sizeof(std::uint64_t);
+    };
+    constexpr std::size_t kSolid = 16 * 16 * 16; // the cube is the whole grid
+    constexpr std::size_t kShell = kSolid - 14 * 14 * 14;
+    EXPECT_EQ(voxels("--dilate 2"), kSolid - 10 * 10 * 10);
+    EXPECT_EQ(voxels("--erode 1"), 12 * 14 + 8); // the edges: what lies outside of the grid takes nothing away
+    EXPECT_EQ(voxels("--neighbors 26 --close 3 --keep-largest 1"), kShell);
+    run("build cube.glb --resolution 16 -o dag.zvo");
+    EXPECT_EQ(voxels("--enclose --subtract dag.zvo"), kSolid - kShell);
+    EXPECT_EQ(voxels("--subtract dag.zvo --enclose --unite dag.zvo"), kShell);
+    run("algebra shell.zvo --enclose -o full.zvo");
+    run("validate full.zvo");
+    run("algebra full.zvo --intersect full.zvo --subtract shell.zvo -o core.zvo --components sizes.csv");
+    EXPECT_EQ(file("sizes.csv"), "voxels,x,y,z\n2744,1,1,1\n");
+    run("build cube.glb --resolution 32 -o fine.zvo");
+    expectError("algebra shell.zvo --unite fine.zvo -o b.zvo", 3, {"fine.zvo", "--resolution"});
+    expectError("algebra shell.zvo --dilate 0 -o b.zvo", 2, {"--dilate"});
+    expectError("algebra shell.zvo --dilate 1", 2, {"--output or --components"});
+    expectError("algebra full.zvo -o b.zvo --structure svdag", 2, {"filled"});
+}
+
 TEST_F(CliRun, PlyFileHoldsCentersNormalsAndColors)
 {
     run("voxelize cube.glb -o cube.ply --resolution 32");

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Runs every kernel of the library once, but for those of brushes. The work is so small that it can be watched by tools
 // that slow programs down a hundredfold: valgrind, instrumented kernels, poisoned memory.
+#include "core/algebra/components.h"
+#include "core/algebra/tree_operator.h"
 #include "core/base/grid.h"
 #include "core/deform/deform_mesh.h"
 #include "core/dynamic/dynamic_octree.h"
@@ -10,6 +12,7 @@
 #include "lanes/kernel_names.h"
 #include "lanes/traced_pictures.h"
 #include "oracle/voxelizer.h"
+#include "runtime/run_job.h"
 #include "runtime/svdag_forest.h"
 #include "runtime/trees.h"
 #include "support/dag_compare.h"
@@ -248,6 +251,35 @@ void buildDark(const Grid& grid, Coverage coverage)
     }
 }
 
+// Makes trees of an octree by each operation on trees, whose results follow from one another.
+void calculate(const DeviceTree& octree)
+{
+    const GpuScene color_tables = uploadColorTables(device());
+    const auto countOf = [&](const OperationInfo& info)
+    {
+        const OperationResult result = runJob(device(), TreeOperator(device().device(), color_tables, info));
+        noteKernels(result.passes);
+        return result.octree.occupiedCount();
+    };
+    const std::uint64_t all = octree.occupiedCount();
+    EXPECT_EQ(countOf({.operation = TreeOperation::Unite, .a = &octree, .b = &octree}), all);
+    EXPECT_EQ(countOf({.operation = TreeOperation::Intersect, .a = &octree, .b = &octree}), all);
+    EXPECT_EQ(countOf({.operation = TreeOperation::Subtract, .a = &octree, .b = &octree}), 0U);
+    EXPECT_GT(countOf({.operation = TreeOperation::Dilate, .corners = true, .a = &octree}), all);
+    EXPECT_LT(countOf({.operation = TreeOperation::Erode, .a = &octree}), all);
+    for (const ComponentOptions options : {ComponentOptions{.corners = true}, ComponentOptions{.background = true}})
+    {
+        const Components components = runJob(device(), ComponentFinder(device().device(), octree, options));
+        noteKernels(components.passes);
+        vk::BufferOf<gpu::uvec2> masks(device().device(), "masks", octree.node_count);
+        run([&](vk::FrameGraph& graph)
+            { maskComponents(graph, octree, options, components, componentsFrom(1), masks); });
+        const TreeOperation operation = options.background ? TreeOperation::Enclose : TreeOperation::Keep;
+        const std::uint64_t count = countOf({.operation = operation, .a = &octree, .masks = &masks});
+        EXPECT_TRUE(options.background ? count >= all : count == all);
+    }
+}
+
 TEST(EveryKernel, RunsOnASmallScene)
 {
     const Scene scene = test::smallScene();
@@ -305,6 +337,10 @@ TEST(EveryKernel, RunsOnASmallScene)
             {
                 tracePacked(buildOctree(device(), gpu_scene, grid, {c.coverage}), format);
             }
+        }
+        if (c.depth != 3)
+        {
+            calculate(built.octree);
         }
         if (c.depth == 7)
         {

@@ -192,6 +192,11 @@ void listNodes(vk::FrameGraph& graph, const GridTile& tile, VoxelizeBuffers& vox
                                .max_groups_x = max_groups_x},
                               divideUp(work.items.count(), gpu::kNodesGroup));
     }
+}
+
+void listFullNodes(vk::FrameGraph& graph, const GridTile& tile, VoxelizeBuffers& voxelize, OctreeBuildBuffers& work)
+{
+    const Grid& grid = tile.grid;
     for (std::uint32_t height = 1; voxelize.fill_planes != 0 && height + 1 < grid.nodeLevels(); ++height)
     {
         vk::Pass pass = graph.addPass(gpu::voxelize::FillNodes{.wide_keys = hasWideKeys(grid)});

@@ -48,6 +48,10 @@ struct LeafBuffers
 /// the bricks' leaves.
 void listNodes(vk::FrameGraph& graph, const GridTile& tile, VoxelizeBuffers& voxelize, OctreeBuildBuffers& work);
 
+/// Records the passes that find the nodes above bricks that are inside and that no triangle may touch, where voxels are
+/// filled. To be recorded after listNodes(). Cost: nodes.
+void listFullNodes(vk::FrameGraph& graph, const GridTile& tile, VoxelizeBuffers& voxelize, OctreeBuildBuffers& work);
+
 /// Records the passes that number the nodes breadth first, in Morton order within a level, and write octree.nodes from
 /// the root down, and leaves. octree.levels, node_count and nodes and work.item_counts must be set up. Full nodes get
 /// empty masks, and leaves the masks of the surface. The numbers come from prefix sums, so they do not depend on the

@@ -3,7 +3,6 @@
 
 #include "core/base/divide_up.h"
 #include "core/base/tuning.h"
-#include "core/tree/leaf_words.h"
 #include "core/tree/tree_limits.h"
 #include "zvo/error.h"
 
@@ -18,8 +17,6 @@ namespace zvo
 
 namespace
 {
-
-constexpr std::uint64_t kReadbackBytes = 1024; // counters, level ranges
 
 constexpr std::uint32_t kFilledDepthMin = 3; // a filled tree has leaf words
 
@@ -85,7 +82,7 @@ OctreeBuilder::OctreeBuilder(vk::Device& device, const PosedGpuScene& scene, con
         throw Error(ErrorCode::Usage, "only whole grids with a resolution of 8 or more can be filled");
     }
     m_step = {&OctreeBuilder::cover, &OctreeBuilder::learnCoverage};
-    m_readback = {device, kReadbackBytes};
+    m_readback = {device, kBrickReadbackBytes};
     m_result.octree.grid = grid;
     const GpuScene& uploaded = scene.uploaded();
     const SumForm sums = options.sum_form.value_or(SumForm::on(device));
@@ -113,23 +110,22 @@ void OctreeBuilder::cover(vk::FrameGraph& graph)
         m_device.memory().require(capacities.bytes(m_scene.uploaded(), m_form) +
                                       OctreeBuildBuffers::bytes(capacities.table, capacities.bricks),
                                   "voxelization");
-        m_bricks.emplace(Bricks{
+        m_bricks.emplace(OctreeBricks{
             {m_device, capacities, m_scene.uploaded(), m_form}, {m_device, capacities.table, capacities.bricks}, {}});
     }
     voxelizeCoverage(graph, voxelizeJob());
     listNodes(graph, m_tile, m_bricks->voxelize, m_bricks->work);
-    m_offsets.bins = m_readback.copy(graph, m_bricks->voxelize.counters, 0, 1);
-    m_offsets.nodes = m_readback.copy(graph, m_bricks->work.counters, 0, 1);
-    m_offsets.ranges = m_readback.copy(graph, m_bricks->work.ranges, 0, m_tile.grid.nodeLevels());
+    listFullNodes(graph, m_tile, m_bricks->voxelize, m_bricks->work);
+    m_offsets.counts = copyCounts(graph, m_readback, *m_bricks, m_tile.grid.nodeLevels());
 }
 
 // Repeats the coverage step with larger buffers if something had no room.
 void OctreeBuilder::learnCoverage()
 {
-    const gpu::BinCounters bins = m_readback.at<gpu::BinCounters>(m_offsets.bins, 1).front();
-    const gpu::BrickCounters nodes = m_readback.at<gpu::BrickCounters>(m_offsets.nodes, 1).front();
+    const BrickCounts counts = readCounts(m_readback, m_offsets.counts, m_tile.grid.nodeLevels());
+    const gpu::BinCounters& bins = counts.bins;
     gpu::BinCounters counters = bins;
-    counters.overflow_count += nodes.overflow_count;
+    counters.overflow_count += counts.nodes.overflow_count;
     const VoxelizeCapacities grown = m_result.capacities.grownFor(counters);
     if (grown != m_result.capacities)
     {
@@ -145,7 +141,7 @@ void OctreeBuilder::learnCoverage()
     m_result.open_lines = bins.open_lines;
     m_item_count = bins.item_count;
     m_mixed_count = bins.mixed_count;
-    allocateNodes(bins, nodes);
+    allocateNodes(m_device, counts, *m_bricks, m_result.octree);
     if (m_result.octree.node_count == 0)
     {
         end();
@@ -165,60 +161,9 @@ void OctreeBuilder::grow(const VoxelizeCapacities& grown)
     m_result.capacities = grown;
 }
 
-// Allocates the nodes of the octree: those of the node list, which ends with the root, and the leaves of its bricks.
-void OctreeBuilder::allocateNodes(const gpu::BinCounters& bins, const gpu::BrickCounters& nodes)
-{
-    DeviceTree& octree = m_result.octree;
-    const std::uint32_t level_count = octree.grid.nodeLevels();
-    std::uint32_t inner_count = level_count > 1 ? nodes.node_count : 0;
-    octree.interior_count = bins.filled_lo + (std::uint64_t{bins.filled_hi} << 32);
-    for (std::uint32_t height = 0; height + 1 < level_count; ++height)
-    {
-        inner_count += nodes.full_nodes[height];
-        octree.interior_count += std::uint64_t{nodes.full_nodes[height]}
-                                 << (kCellBits * (height + 2)); // a brick: 2 levels
-    }
-    requireIndexable(inner_count + bins.leaf_count, m_form.attributes ? bins.voxel_count : 0);
-    octree.node_count = inner_count + bins.leaf_count;
-    octree.voxel_count = bins.voxel_count;
-    if (octree.node_count == 0)
-    {
-        return;
-    }
-    const auto listed = m_readback.at<gpu::LevelRange>(m_offsets.ranges, level_count - 1);
-    std::uint32_t first_node = 0;
-    m_bricks->work.item_counts.clear();
-    for (std::size_t height = listed.size(); height-- > 0;)
-    {
-        const std::uint32_t count = listed[height].count + nodes.full_nodes[height];
-        m_bricks->work.item_counts.push_back(listed[height].count);
-        octree.levels.push_back({first_node, count});
-        first_node += count;
-    }
-    octree.levels.push_back({first_node, bins.leaf_count});
-    octree.nodes = {m_device, "octree/nodes", octree.node_count};
-}
-
 void OctreeBuilder::number(vk::FrameGraph& graph)
 {
-    const std::uint32_t leaf_count = m_result.octree.levels.back().node_count;
-    LeafBuffers& leaves = m_bricks->leaves;
-    if (m_form.mixed && leaves.mixed.count() == 0)
-    {
-        m_device.memory().require(leaf_count * sizeof(gpu::MixedVoxels), "the leaves of bricks");
-        leaves.mixed = {m_device, "voxelize/mixed_voxels", leaf_count};
-    }
-    if (m_form.fill != Fill::None && leaves.occupied.count() == 0)
-    {
-        const DeviceTree& octree = m_result.octree;
-        const std::uint32_t brick_count = octree.levels[octree.levels.size() - 2].node_count;
-        m_device.memory().require(leaf_count * sizeof(gpu::uvec2) + brick_count * sizeof(gpu::uint),
-                                  "the leaves of bricks");
-        m_bricks->work.order = {m_device, "octree/brick_order", brick_count};
-        m_bricks->work.brick_partials = {m_device, "octree/brick_partials", divideUp(brick_count, gpu::kScanBlock)};
-        leaves.occupied = {m_device, "octree/occupied", leaf_count};
-    }
-    numberNodes(graph, m_bricks->voxelize, m_bricks->work, leaves, m_result.octree);
+    numberBricks(graph, *m_bricks, m_result.octree);
 }
 
 void OctreeBuilder::endNumbers()
@@ -227,7 +172,7 @@ void OctreeBuilder::endNumbers()
     if (!m_form.attributes)
     {
         m_bricks.reset();
-        m_step = {&OctreeBuilder::addLeafWords, &OctreeBuilder::end};
+        m_step = {&OctreeBuilder::leafWords, &OctreeBuilder::end};
         return;
     }
     VoxelizeBuffers& voxelize = m_bricks->voxelize;
@@ -316,50 +261,20 @@ void OctreeBuilder::endVoxelAttributes()
 
 void OctreeBuilder::average(vk::FrameGraph& graph)
 {
-    DeviceTree& octree = m_result.octree;
-    if (octree.node_attributes.count() == 0)
-    {
-        octree.node_attributes = {m_device, "octree/node_attributes", octree.node_count};
-    }
-    averageNodes(graph, m_scene.uploaded(), octree);
-    if (m_form.fill != Fill::None)
-    {
-        inheritColors(graph, octree);
-    }
-    addLeafWords(graph);
+    averageOctree(graph, m_scene.uploaded(), m_form.fill != Fill::None, m_result.octree);
+    leafWords(graph);
 }
 
 // While it is made, an octree's leaves are nodes, which tell the fragments where their voxels are.
-void OctreeBuilder::addLeafWords(vk::FrameGraph& graph)
+void OctreeBuilder::leafWords(vk::FrameGraph& graph)
 {
-    DeviceTree& octree = m_result.octree;
-    const std::uint32_t leaf_words = leafWordsOf(octree.levels);
-    if (leaf_words == 0)
-    {
-        return;
-    }
-    if (m_pool.count() == 0)
-    {
-        const std::uint64_t inner_count = octree.node_count - leaf_words;
-        const std::uint64_t group_count =
-            gpu::kFirstLeafGroup + divideUp(2 * inner_count + leaf_words, gpu::kLeafGroup);
-        const std::uint64_t pool_nodes = poolNodes(inner_count, leaf_words, m_form.fill != Fill::None);
-        m_device.memory().require(pool_nodes * sizeof(gpu::Node) + group_count * sizeof(gpu::uvec2), "the leaves");
-        octree.leaf_groups = {m_device, "octree/leaf_groups", group_count};
-        m_pool = {m_device, octree.nodes.name(), pool_nodes};
-    }
-    makeLeafWords(graph, octree, m_occupied, m_pool, octree.leaf_groups);
+    addLeafWords(graph, m_occupied, m_result.octree, m_pool);
 }
 
 void OctreeBuilder::end()
 {
     m_bricks.reset();
-    if (m_pool.count() != 0)
-    {
-        m_result.octree.nodes = std::move(m_pool);
-        m_result.octree.leaf_words = m_result.octree.levels.back().node_count;
-        m_result.octree.filled = m_form.fill != Fill::None;
-    }
+    takePool(std::move(m_pool), m_form.fill != Fill::None, m_result.octree);
     m_occupied = {};
     finish();
 }

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/base/step_job.h"
-#include "core/octree/octree_build.h"
+#include "core/octree/brick_octree.h"
 #include "core/tree/device_tree.h"
 #include "core/upload/gpu_scene.h"
 #include "core/voxelize/fragment_sums.h"
@@ -69,19 +69,10 @@ public:
     OctreeBuilder(vk::Device& device, const PosedGpuScene& scene, const GridTile& tile, const BuildOptions& options);
 
 private:
-    // The bricks with the list of the nodes from them up.
-    struct Bricks
-    {
-        VoxelizeBuffers voxelize;
-        OctreeBuildBuffers work;
-        LeafBuffers leaves; // allocated when their number is known
-    };
     // Where the values of the last step stand in the readback.
     struct ReadbackOffsets
     {
-        std::uint64_t bins = 0;
-        std::uint64_t nodes = 0;
-        std::uint64_t ranges = 0; // of work items, by level
+        BrickCountOffsets counts;
         std::uint64_t max_fragments = 0;
         std::uint64_t emissive_count = 0;
     };
@@ -90,7 +81,6 @@ private:
     void cover(vk::FrameGraph& graph);
     void learnCoverage();
     void grow(const VoxelizeCapacities& grown);
-    void allocateNodes(const gpu::BinCounters& bins, const gpu::BrickCounters& nodes);
     void number(vk::FrameGraph& graph);
     void endNumbers();
     void attributes(vk::FrameGraph& graph);
@@ -98,7 +88,7 @@ private:
     void emission(vk::FrameGraph& graph);
     void endVoxelAttributes();
     void average(vk::FrameGraph& graph);
-    void addLeafWords(vk::FrameGraph& graph);
+    void leafWords(vk::FrameGraph& graph);
     void end();
 
     vk::Device& m_device;
@@ -107,7 +97,7 @@ private:
     BuildOptions m_options;
     bool m_int64 = false; // SumForm::int64
     VoxelForm m_form;
-    std::optional<Bricks> m_bricks;
+    std::optional<OctreeBricks> m_bricks;
     std::optional<AttributeBuffers> m_sums;
     std::uint32_t m_item_count = 0;  // of all bricks
     std::uint32_t m_mixed_count = 0; // mixed voxels, where they alone have sums

@@ -86,28 +86,6 @@ void resolveMixed(vk::FrameGraph& graph, const GpuScene& scene, const vk::Buffer
                                .sum_shift = attributes.sum_shift});
 }
 
-void rankEmissiveVoxels(vk::FrameGraph& graph, AttributeBuffers& attributes, DeviceTree& octree)
-{
-    const auto word_count = static_cast<std::uint32_t>(octree.emission_words.count());
-    const std::uint64_t threads = divideUp(word_count, gpu::kScanItems);
-    {
-        vk::Pass pass = graph.addPass(gpu::voxelize::EmissionCount{});
-        const gpu::EmissionRankParams params = {pass.readWrite(octree.emission_words), pass.write(attributes.partials),
-                                                word_count};
-        pass.dispatch(threads, params);
-    }
-    {
-        vk::Pass pass = graph.addPass(gpu::octree::Scan{});
-        const gpu::ScanParams params = {pass.readWrite(attributes.partials), pass.write(attributes.emissive_count),
-                                        static_cast<std::uint32_t>(divideUp(word_count, gpu::kScanBlock))};
-        pass.dispatch(gpu::kScanGroup, params);
-    }
-    vk::Pass pass = graph.addPass(gpu::voxelize::EmissionRank{});
-    const gpu::EmissionRankParams params = {pass.readWrite(octree.emission_words), pass.readWrite(attributes.partials),
-                                            word_count};
-    pass.dispatch(threads, params);
-}
-
 FragmentTarget sumsOf(AttributeBuffers& attributes, DeviceTree& octree)
 {
     return {octree.nodes,          octree.levels.back().first_node, attributes.sums,
@@ -131,6 +109,27 @@ AttributeBuffers::AttributeBuffers(vk::Device& device, std::uint32_t voxel_count
                     divideUp(divideUp(voxel_count, gpu::kVoxelsPerEmissionWord), gpu::kScanBlock)};
         emissive_count = {device, "voxelize/emissive_count", 1};
     }
+}
+
+void rankBits(vk::FrameGraph& graph, vk::BufferOf<gpu::uvec2>& words, vk::BufferOf<gpu::uint>& partials,
+              vk::BufferOf<gpu::uint>& total)
+{
+    const auto word_count = static_cast<std::uint32_t>(words.count());
+    const std::uint64_t threads = divideUp(word_count, gpu::kScanItems);
+    {
+        vk::Pass pass = graph.addPass(gpu::voxelize::EmissionCount{});
+        const gpu::EmissionRankParams params = {pass.readWrite(words), pass.write(partials), word_count};
+        pass.dispatch(threads, params);
+    }
+    {
+        vk::Pass pass = graph.addPass(gpu::octree::Scan{});
+        const gpu::ScanParams params = {pass.readWrite(partials), pass.write(total),
+                                        static_cast<std::uint32_t>(divideUp(word_count, gpu::kScanBlock))};
+        pass.dispatch(gpu::kScanGroup, params);
+    }
+    vk::Pass pass = graph.addPass(gpu::voxelize::EmissionRank{});
+    const gpu::EmissionRankParams params = {pass.readWrite(words), pass.readWrite(partials), word_count};
+    pass.dispatch(threads, params);
 }
 
 void addFragments(vk::FrameGraph& graph, const VoxelizeJob& job, RasterMode mode, const FragmentTarget& sums,
@@ -172,7 +171,7 @@ void voxelizeAttributes(vk::FrameGraph& graph, const VoxelizeJob& job, std::uint
     resolveVoxels(graph, scene, attributes, octree);
     if (emission)
     {
-        rankEmissiveVoxels(graph, attributes, octree);
+        rankBits(graph, octree.emission_words, attributes.partials, attributes.emissive_count);
     }
 }
 

@@ -51,6 +51,11 @@ struct FragmentTarget
     vk::BufferOf<gpu::Attribute>* voxel_attributes = nullptr; // [voxels] with mixed, of those that are not mixed
 };
 
+/// Records the passes that write beside each word how many bits are set in the words before it. x: the bits; y: the
+/// number, which is set. partials: [ceil(words / kScanBlock)]; total: [1] gets the bits of all words. Cost: words.
+void rankBits(vk::FrameGraph& graph, vk::BufferOf<gpu::uvec2>& words, vk::BufferOf<gpu::uint>& partials,
+              vk::BufferOf<gpu::uint>& total);
+
 /// Records the pass over items [first, first + count), of which there may be fewer, whose coverage has been recorded
 /// and whose bricks' entries have the numbers of their nodes. RasterMode::Attributes adds colours and normals to the
 /// sums of voxels, and sets the bits of emissive ones in emission_words; RasterMode::Emission adds emission to

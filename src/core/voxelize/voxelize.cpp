@@ -158,22 +158,6 @@ void binLarge(vk::FrameGraph& graph, const VoxelizeJob& job)
                           divideUp(buffers.large.count() * lanes, gpu::kLargeGroup));
 }
 
-void listBricks(vk::FrameGraph& graph, VoxelizeBuffers& buffers)
-{
-    vk::Pass pass =
-        graph.addPass(gpu::voxelize::ListBricks{.brick_lanes = tunedValue(graph.device(), Tunable::BrickLanes)});
-    pass.dispatch(divideUp(buffers.table.count(), gpu::kListItems),
-                  {.bricks = pass.readWrite(buffers.table),
-                   .ranges = pass.write(buffers.ranges),
-                   .counters = pass.readWrite(buffers.counters),
-                   .brick_capacity = count32(buffers.table),
-                   .max_groups_x = graph.device().limits().maxComputeWorkGroupCount[0],
-                   .range_capacity = count32(buffers.ranges),
-                   .setup_capacity = count32(buffers.setups),
-                   .item_capacity = count32(buffers.items),
-                   .large_capacity = count32(buffers.large)});
-}
-
 // args: of the workgroups for items whose voxels are known, or for the others.
 void coverItems(vk::FrameGraph& graph, const VoxelizeJob& job, bool known, gpu::DispatchArgs gpu::BinCounters::*args)
 {
@@ -302,6 +286,17 @@ VoxelizeBuffers::VoxelizeBuffers(vk::Device& device, const VoxelizeCapacities& c
     assert(std::has_single_bit(capacities.table));
 }
 
+VoxelizeBuffers::VoxelizeBuffers(vk::Device& device, const VoxelizeCapacities& capacities, const VoxelForm& voxel_form)
+    : form(voxel_form), table(device, "voxelize/bricks", capacities.table),
+      ranges(device, "voxelize/brick_ranges", capacities.bricks),
+      masks(device, "voxelize/brick_masks", maskWordsOf(form, capacities.bricks)),
+      fill_planes(planesOf(form, capacities)),
+      crossings(device, "voxelize/crossings", crossingWordsOf(form, capacities)),
+      counters(device, "voxelize/bin_counters", 1)
+{
+    assert(std::has_single_bit(capacities.table));
+}
+
 std::map<std::string, std::uint64_t> droppedTriangles(const gpu::BinCounters& counters)
 {
     std::map<std::string, std::uint64_t> dropped = {{"nonfinite", counters.nonfinite},
@@ -349,10 +344,25 @@ void binTriangles(vk::FrameGraph& graph, const VoxelizeJob& job, MaterialClass m
     }
 }
 
+void listBricks(vk::FrameGraph& graph, VoxelizeBuffers& buffers, std::uint32_t brick_lanes)
+{
+    vk::Pass pass = graph.addPass(gpu::voxelize::ListBricks{.brick_lanes = brick_lanes});
+    pass.dispatch(divideUp(buffers.table.count(), gpu::kListItems),
+                  {.bricks = pass.readWrite(buffers.table),
+                   .ranges = pass.write(buffers.ranges),
+                   .counters = pass.readWrite(buffers.counters),
+                   .brick_capacity = count32(buffers.table),
+                   .max_groups_x = graph.device().limits().maxComputeWorkGroupCount[0],
+                   .range_capacity = count32(buffers.ranges),
+                   .setup_capacity = count32(buffers.setups),
+                   .item_capacity = count32(buffers.items),
+                   .large_capacity = count32(buffers.large)});
+}
+
 void coverBricks(vk::FrameGraph& graph, const VoxelizeJob& job)
 {
     binLarge(graph, job);
-    listBricks(graph, job.buffers);
+    listBricks(graph, job.buffers, tunedValue(graph.device(), Tunable::BrickLanes));
     coverItems(graph, job, true, &gpu::BinCounters::known);
     coverItems(graph, job, false, &gpu::BinCounters::cover);
 }

@@ -97,6 +97,9 @@ struct VoxelizeBuffers
     VoxelizeBuffers(vk::Device& device, const VoxelizeCapacities& capacities, const GpuScene& scene,
                     const VoxelForm& voxel_form);
 
+    /// For bricks whose masks are not those of triangles: capacities.table and capacities.bricks count.
+    VoxelizeBuffers(vk::Device& device, const VoxelizeCapacities& capacities, const VoxelForm& voxel_form);
+
     VoxelForm form;
     vk::BufferOf<gpu::BrickEntry> table;     // [capacities.table] bricks; octree construction adds the nodes above them
     vk::BufferOf<gpu::TriangleSetup> setups; // [capacities.setups]
@@ -133,6 +136,10 @@ void clearVoxels(vk::FrameGraph& graph, VoxelizeBuffers& buffers);
 /// workgroups take, from first_group on: at most one over whole chunks and one over single triangles (TriangleChunks).
 void binTriangles(vk::FrameGraph& graph, const VoxelizeJob& job, MaterialClass material_class,
                   std::uint64_t first_group, std::uint64_t group_count);
+
+/// Records the pass that lists the bricks of the table, with the arguments of dispatches over them. brick_lanes:
+/// threads a brick of those by BinCounters::leaves.
+void listBricks(vk::FrameGraph& graph, VoxelizeBuffers& buffers, std::uint32_t brick_lanes);
 
 /// Records the passes that put what large triangles are left into bricks, and then set the bit of every covered voxel
 /// in the masks of these. To be recorded after all triangles were put into bricks.
