@@ -45,9 +45,10 @@ void scaleEmission(TreeData& tree, float scale)
 class Calculator
 {
 public:
-    Calculator(vk::HeadlessDevice& device, const AlgebraOptions& options) : m_device(device), m_options(options)
+    Calculator(vk::HeadlessDevice& device, const AlgebraOptions& options)
+        : m_device(device), m_options(options), m_corners(options.corners.value_or(true)),
+          m_tree(uploadTree(device, octreeIn(options.file)))
     {
-        m_tree = uploadTree(device, octreeIn(options.file));
     }
 
     [[nodiscard]] const DeviceTree& tree() const { return m_tree; }
@@ -73,18 +74,15 @@ public:
             spread(TreeOperation::Dilate, step.number);
             return spread(TreeOperation::Erode, step.number);
         case AlgebraKind::Enclose:
-            m_tree = encloseTree(m_device, m_tree);
-            return;
+            return apply({.operation = TreeOperation::Enclose});
         case AlgebraKind::KeepLargest:
+            return apply({.operation = TreeOperation::Keep, .corners = m_corners, .largest = step.number});
         case AlgebraKind::KeepFrom:
-            return keep(step);
+            return apply({.operation = TreeOperation::Keep, .corners = m_corners, .least_voxels = step.number});
         }
     }
 
-    [[nodiscard]] Components components() const
-    {
-        return findComponents(m_device, m_tree, m_options.corners.value_or(true));
-    }
+    [[nodiscard]] Components components() const { return findComponents(m_device, m_tree, m_corners); }
 
 private:
     // The octree of a file, without lists or overlays.
@@ -116,25 +114,25 @@ private:
             scaleEmission(other, scale);
             m_tree = uploadTree(m_device, mine);
         }
-        m_tree = combineTrees(m_device, operation, m_tree, uploadTree(m_device, other));
+        const DeviceTree second = uploadTree(m_device, other);
+        apply({.operation = operation}, &second);
     }
 
     void spread(TreeOperation operation, std::uint64_t voxels)
     {
-        m_tree = spreadTree(m_device, operation, m_options.corners.value_or(false), static_cast<std::uint32_t>(voxels),
-                            std::move(m_tree));
+        apply({.operation = operation,
+               .corners = m_options.corners.value_or(false),
+               .voxels = static_cast<std::uint32_t>(voxels)});
     }
 
-    void keep(const AlgebraStep& step)
+    void apply(const AlgebraInfo& info, const DeviceTree* second = nullptr)
     {
-        const Components found = components();
-        const ComponentThreshold threshold =
-            step.kind == AlgebraKind::KeepLargest ? largestComponents(found, step.number) : componentsFrom(step.number);
-        m_tree = keepComponents(m_device, m_tree, m_options.corners.value_or(true), found, threshold);
+        m_tree = applyAlgebra(m_device, info, m_tree, second);
     }
 
     vk::HeadlessDevice& m_device;
     const AlgebraOptions& m_options;
+    bool m_corners; // of components
     DeviceTree m_tree;
 };
 

@@ -45,6 +45,19 @@ enum
     ZVO_FILL_PARITY = 2 ///< those whose winding number is odd
 };
 
+/// What one tree is made of others by (docs/algebra.md).
+typedef uint32_t ZvoTreeOperation;
+enum
+{
+    ZVO_TREE_OPERATION_UNITE = 0,     ///< voxels of either tree
+    ZVO_TREE_OPERATION_INTERSECT = 1, ///< voxels of both trees
+    ZVO_TREE_OPERATION_SUBTRACT = 2,  ///< voxels that the other tree does not have
+    ZVO_TREE_OPERATION_KEEP = 3,      ///< connected components that are large
+    ZVO_TREE_OPERATION_ENCLOSE = 4,   ///< also what no way across faces of empty cells leads to from outside the grid
+    ZVO_TREE_OPERATION_DILATE = 5,    ///< also the neighbours of voxels
+    ZVO_TREE_OPERATION_ERODE = 6      ///< voxels all of whose neighbours in the grid are voxels
+};
+
 /// How the nodes of a tree are connected. The values are those in files (docs/file-format.md).
 typedef uint32_t ZvoTreeStructure;
 enum
@@ -186,6 +199,17 @@ enum class Fill : ZvoFill
     None = ZVO_FILL_NONE,
     Solid = ZVO_FILL_SOLID,
     Parity = ZVO_FILL_PARITY,
+};
+
+enum class TreeOperation : ZvoTreeOperation
+{
+    Unite = ZVO_TREE_OPERATION_UNITE,
+    Intersect = ZVO_TREE_OPERATION_INTERSECT,
+    Subtract = ZVO_TREE_OPERATION_SUBTRACT,
+    Keep = ZVO_TREE_OPERATION_KEEP,
+    Enclose = ZVO_TREE_OPERATION_ENCLOSE,
+    Dilate = ZVO_TREE_OPERATION_DILATE,
+    Erode = ZVO_TREE_OPERATION_ERODE,
 };
 
 enum class TreeStructure : ZvoTreeStructure

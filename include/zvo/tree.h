@@ -123,6 +123,27 @@ public:
     TreeBuild(Context& context, const Model& model, const TreeBuildInfo& info);
 };
 
+/// Options of algebra.
+struct TreeAlgebraInfo
+{
+    TreeOperation operation = TreeOperation::Unite;
+    bool corners = false;      // Keep, Dilate, Erode: neighbours are all 26, else the 6 across faces
+    std::uint32_t voxels = 1;  // Dilate, Erode: how many times
+    std::uint32_t largest = 0; // Keep: so many components, the largest; 0: those of least_voxels or more
+    std::uint64_t least_voxels = 1;
+};
+
+/// Makes an octree of one or two others, which stay as they are (docs/algebra.md): about four steps, more for
+/// components, and as many again for each further voxel of a dilation or erosion.
+class ZVO_API TreeAlgebra : public TreeJob
+{
+public:
+    /// tree, other: octrees of one grid of depth 3 or more, with attributes of 8 bytes or none. They outlive the job.
+    /// other: of Unite, Intersect and Subtract; else null. Throws Error{Usage} for other trees, and for trees whose
+    /// emission has different scales. First and last stage of the constructor: ALL_TRANSFER.
+    TreeAlgebra(Recorder& recorder, const Tree& tree, const Tree* other, const TreeAlgebraInfo& info);
+};
+
 /// Makes a DAG of an octree: about three steps, and one more for each table that was too small.
 class ZVO_API TreeCompression : public TreeJob
 {

@@ -341,7 +341,7 @@ ZVO_C_API void zvoTreeDestroy(ZvoTree* tree);
 ZVO_C_API ZvoResult zvoTreeInfo(const ZvoTree* tree, ZvoTreeInfo* info);
 ZVO_C_API ZvoResult zvoTreeAddress(const ZvoTree* tree, uint64_t* address);
 
-// zvo::TreeJob: a zvo::TreeBuild or a zvo::TreeCompression.
+// zvo::TreeJob: a zvo::TreeBuild, a zvo::TreeAlgebra or a zvo::TreeCompression.
 
 /// As zvo::TreeBuildInfo.
 typedef struct ZvoTreeBuildInfo
@@ -373,6 +373,23 @@ typedef struct ZvoDroppedTriangles
 
 ZVO_C_API ZvoResult zvoTreeBuildCreate(ZvoContext* context, const ZvoModel* model, const ZvoTreeBuildInfo* info,
                                        ZvoTreeJob** build);
+
+/// As zvo::TreeAlgebraInfo.
+typedef struct ZvoTreeAlgebraInfo
+{
+    size_t struct_size;
+    ZvoTreeOperation operation;
+    VkBool32 corners;
+    uint32_t voxels;
+    uint32_t largest;
+    uint64_t least_voxels;
+} ZvoTreeAlgebraInfo;
+
+#define ZVO_TREE_ALGEBRA_INFO_INIT ZVO_STRUCT_INIT(ZvoTreeAlgebraInfo, ZVO_TREE_OPERATION_UNITE, VK_FALSE, 1, 0, 1)
+
+/// other: may be null. Both trees outlive the job.
+ZVO_C_API ZvoResult zvoTreeAlgebraCreate(ZvoRecorder* recorder, const ZvoTree* tree, const ZvoTree* other,
+                                         const ZvoTreeAlgebraInfo* info, ZvoTreeJob** algebra);
 
 /// Takes the octree over: where this succeeds, its handle is gone. Where it fails, the host destroys it, and using
 /// it for anything else may be ZVO_ERROR_USAGE: what it held can be gone.

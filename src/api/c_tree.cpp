@@ -71,6 +71,20 @@ ZvoResult zvoTreeBuildCreate(ZvoContext* context, const ZvoModel* model, const Z
                    });
 }
 
+ZvoResult zvoTreeAlgebraCreate(ZvoRecorder* recorder, const ZvoTree* tree, const ZvoTree* other,
+                               const ZvoTreeAlgebraInfo* info, ZvoTreeJob** algebra)
+{
+    return guarded(__func__,
+                   [&]
+                   {
+                       const TreeAlgebraInfo description = read(info, "info");
+                       const Tree& source = objectOf(tree, "tree");
+                       const Tree* const second = other != nullptr ? &objectOf(other, "other") : nullptr;
+                       give(algebra, "algebra",
+                            [&] { return TreeAlgebra(objectOf(recorder, "recorder"), source, second, description); });
+                   });
+}
+
 ZvoResult zvoTreeCompressionCreate(ZvoContext* context, ZvoTree* octree, ZvoTreeJob** compression)
 {
     return guarded(__func__,

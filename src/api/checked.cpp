@@ -137,6 +137,13 @@ const TreeBuildInfo& checked(const TreeBuildInfo& info)
     return info;
 }
 
+const TreeAlgebraInfo& checked(const TreeAlgebraInfo& info)
+{
+    checkedEnum(info.operation, TreeOperation::Erode, "TreeAlgebraInfo::operation");
+    requireOne(info.voxels, "TreeAlgebraInfo::voxels");
+    return info;
+}
+
 const DynamicTreeInfo& checked(const DynamicTreeInfo& info)
 {
     checkedEnum(info.coverage, Coverage::Thin, "DynamicTreeInfo::coverage");

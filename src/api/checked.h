@@ -42,6 +42,7 @@ template <typename Number> Number checkedAmount(Number amount, const char* name)
 void requireAtMost(std::uint64_t count, std::uint64_t most, const char* name);
 
 const TreeBuildInfo& checked(const TreeBuildInfo& info);
+const TreeAlgebraInfo& checked(const TreeAlgebraInfo& info);
 const DynamicTreeInfo& checked(const DynamicTreeInfo& info);
 const BrushInfo& checked(const BrushInfo& info);
 const TraceInfo& checked(const TraceInfo& info);

@@ -3,6 +3,7 @@
 #include "api/context_impl.h"
 #include "api/model_impl.h"
 #include "api/tree_impl.h"
+#include "core/algebra/algebra_job.h"
 #include "core/attributes/attribute_pack.h"
 #include "core/base/step_job.h"
 #include "core/octree/octree_builder.h"
@@ -241,6 +242,46 @@ struct Compression final : TreeJob::Impl
     std::unique_ptr<SvdagBuilder> builder;
 };
 
+struct Algebra final : TreeJob::Impl
+{
+    Algebra(Recorder::Impl& recorder, const Tree::Impl& a, const Tree::Impl* b, const TreeAlgebraInfo& info)
+        : Impl(recorder.context, recorder.frame, "algebra"),
+          tables(std::make_unique<GpuScene>(uploadColorTables(context.uploads))),
+          job(std::make_unique<AlgebraJob>(context.device, *tables,
+                                           AlgebraInfo{.operation = info.operation,
+                                                       .corners = info.corners,
+                                                       .voxels = info.voxels,
+                                                       .largest = info.largest,
+                                                       .least_voxels = info.least_voxels},
+                                           a.fixed, b != nullptr ? &b->fixed : nullptr))
+    {
+        begin(*job);
+        if (job->isDone())
+        {
+            setTree(job->take());
+        }
+    }
+
+    ~Algebra() override
+    {
+        context.deleteLater(std::move(job));
+        context.deleteLater(std::move(tables));
+    }
+
+    void endPart() override { setTree(job->take()); }
+
+    std::unique_ptr<GpuScene> tables;
+    std::unique_ptr<AlgebraJob> job;
+};
+
+// A tree that may be an operand.
+const Tree::Impl& operand(Recorder::Impl& recorder, const Tree& tree)
+{
+    const Tree::Impl& impl = usable(tree);
+    requireSame(recorder.context, impl.context);
+    return impl;
+}
+
 const Model::Impl& buildable(Context& context, const Model& model)
 {
     const Model::Impl& impl = usable(model);
@@ -263,6 +304,17 @@ Tree&& compressible(Context& context, Tree&& octree)
 
 TreeBuild::TreeBuild(Context& context, const Model& model, const TreeBuildInfo& info)
     : TreeJob(std::make_unique<Build>(context.impl(), buildable(context, model), info), "build")
+{
+}
+
+TreeAlgebra::TreeAlgebra(Recorder& recorder, const Tree& tree, const Tree* other, const TreeAlgebraInfo& info)
+    : TreeJob(recording(recorder,
+                        [&](Recorder::Impl& impl)
+                        {
+                            const Tree::Impl* const b = other != nullptr ? &operand(impl, *other) : nullptr;
+                            return std::make_unique<Algebra>(impl, operand(impl, tree), b, checked(info));
+                        }),
+              "algebra")
 {
 }
 

@@ -9,13 +9,19 @@
 namespace zvo
 {
 
-/// Runs a job to its end, waiting after each step, and returns the job's result. Throws what the steps throw.
-template <std::derived_from<StepJob> AnyJob> auto runJob(vk::HeadlessDevice& device, AnyJob job)
+/// Runs a job to its end, waiting after each step. Throws what the steps throw.
+inline void runSteps(vk::HeadlessDevice& device, StepJob& job)
 {
     while (!job.isDone())
     {
         job.resume(device.run([&](vk::FrameGraph& graph) { job.record(graph); }));
     }
+}
+
+/// The same; returns the job's result.
+template <std::derived_from<StepJob> AnyJob> auto runJob(vk::HeadlessDevice& device, AnyJob job)
+{
+    runSteps(device, job);
     return job.take();
 }
 

@@ -140,6 +140,53 @@ TEST_F(ApiDynamic, StampsAddAndTakeTheVoxelsOfAnOctree)
                  { EXPECT_THROW(tree.stamp(recorder, large, offset, BrushAction::Carve), Error); });
 }
 
+// What is inside of a ball is what its surface encloses.
+TEST_F(ApiDynamic, AlgebraMakesTreesOfOthers)
+{
+    TreeBuildInfo info = {.grid = {{-2.5F, -2.5F, -2.5F}, 0.16F, 5}};
+    const Tree shell = m_host.build(ball(), info);
+    info.fill = Fill::Solid;
+    const Tree solid = m_host.build(ball(), info);
+    const auto made = [&](const Tree& tree, const Tree* other, const TreeAlgebraInfo& what)
+    {
+        std::optional<TreeAlgebra> job;
+        m_host.frame([&](Recorder& recorder) { job.emplace(recorder, tree, other, what); });
+        m_host.finish(*job);
+        return job->take();
+    };
+    const auto isWithin = [&](const Tree& inner, const Tree& outer)
+    { return made(inner, &outer, {.operation = TreeOperation::Subtract}).info().voxel_count == 0; };
+    const std::uint64_t surface = shell.info().voxel_count;
+    const Tree enclosed = made(shell, nullptr, {.operation = TreeOperation::Enclose});
+    EXPECT_TRUE(isWithin(enclosed, solid) && isWithin(solid, enclosed));
+    EXPECT_FALSE(isWithin(solid, shell));
+    const Tree united = made(shell, &solid, {.operation = TreeOperation::Unite});
+    EXPECT_TRUE(isWithin(united, solid) && isWithin(solid, united));
+    EXPECT_EQ(made(shell, &solid, {.operation = TreeOperation::Intersect}).info().voxel_count, surface);
+    TreeAlgebraInfo keep = {.operation = TreeOperation::Keep, .corners = true, .largest = 1};
+    EXPECT_EQ(made(shell, nullptr, keep).info().voxel_count, surface);
+    keep.largest = 0;
+    keep.least_voxels = surface + 1;
+    EXPECT_EQ(made(shell, nullptr, keep).info().voxel_count, 0U);
+    const Tree wide = made(solid, nullptr, {.operation = TreeOperation::Dilate, .voxels = 2});
+    EXPECT_TRUE(isWithin(solid, wide) && !isWithin(wide, solid));
+    const Tree again = made(wide, nullptr, {.operation = TreeOperation::Erode, .voxels = 2});
+    EXPECT_TRUE(isWithin(solid, again) && isWithin(again, wide) && !isWithin(wide, again));
+    const auto refused = [&](const Tree& tree, const Tree* other, TreeOperation operation)
+    {
+        m_host.frame([&](Recorder& recorder)
+                     { EXPECT_THROW(TreeAlgebra(recorder, tree, other, {.operation = operation}), Error); });
+    };
+    refused(shell, nullptr, TreeOperation::Unite);
+    refused(shell, &solid, TreeOperation::Erode);
+    refused(shell, &solid, static_cast<TreeOperation>(7));
+    info.grid.voxel_size = 0.17F;
+    const Tree elsewhere = m_host.build(ball(), info);
+    refused(shell, &elsewhere, TreeOperation::Unite);
+    const Tree dag = m_host.compress(m_host.build(ball(), {.grid = shell.info().grid}));
+    refused(dag, nullptr, TreeOperation::Dilate);
+}
+
 TEST_F(ApiDynamic, ALostFrameTakesNothingAlong)
 {
     DynamicTree tree = dynamicTree(fixedTree(false));

@@ -193,6 +193,14 @@ TEST(CApi, WhatIsTakenOverIsGoneOnlyOnSuccess)
     info.format = ZVO_ATTRIBUTE_FORMAT_BYTES4;
     ZvoTree* tree = host.build(model, info);
     ZvoTreeInfo description = ZVO_TREE_INFO_INIT;
+    ZvoTreeAlgebraInfo algebra_info = ZVO_TREE_ALGEBRA_INFO_INIT;
+    ZvoTreeJob* algebra = nullptr;
+    host.frame(
+        [&](ZvoRecorder* recorder)
+        {
+            EXPECT_EQ(zvoTreeAlgebraCreate(recorder, tree, tree, &algebra_info, &algebra), ZVO_ERROR_USAGE);
+            EXPECT_NE(std::string(zvoLastError()).find("8 bytes"), std::string::npos) << zvoLastError();
+        });
     ZvoTreeJob* compression = nullptr;
     EXPECT_EQ(zvoTreeCompressionCreate(host.context, tree, nullptr), ZVO_ERROR_USAGE);
     EXPECT_EQ(zvoTreeInfo(tree, &description), ZVO_OK); // the tree is as before

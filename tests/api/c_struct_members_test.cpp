@@ -25,9 +25,9 @@ template <typename... Structs> struct List
 
 // Structs that zvo reads.
 using Inputs = List<ZvoGrid, ZvoOptionalFeatures, ZvoContextInfo, ZvoTextureInfo, ZvoMaterialInfo, ZvoMeshInfo,
-                    ZvoInstanceInfo, ZvoModelInfo, ZvoTreeBuildInfo, ZvoDynamicTreeInfo, ZvoBrushInfo, ZvoSunInfo,
-                    ZvoEnvironmentMapInfo, ZvoCameraInfo, ZvoTraceInfo, ZvoPathInfo, ZvoImageTarget, ZvoDepthTarget,
-                    ZvoRadianceCacheInfo, ZvoCachedFrameInfo, ZvoCachedPictureInfo>;
+                    ZvoInstanceInfo, ZvoModelInfo, ZvoTreeBuildInfo, ZvoTreeAlgebraInfo, ZvoDynamicTreeInfo,
+                    ZvoBrushInfo, ZvoSunInfo, ZvoEnvironmentMapInfo, ZvoCameraInfo, ZvoTraceInfo, ZvoPathInfo,
+                    ZvoImageTarget, ZvoDepthTarget, ZvoRadianceCacheInfo, ZvoCachedFrameInfo, ZvoCachedPictureInfo>;
 
 // Structs that zvo fills, but those with texts.
 using Outputs =

@@ -235,7 +235,19 @@ struct Expected
 {
     std::vector<bool> cells;
     bool filled = false;
+    std::vector<bool> exposed = {}; // voxels that were beside an empty one after an earlier step; or empty
 };
+
+// Whether a voxel is beside an empty one.
+bool isExposed(const Dense& a, const std::vector<bool>& cells, std::size_t number)
+{
+    return std::ranges::any_of(directions(false),
+                               [&](const glm::ivec3& step)
+                               {
+                                   const glm::ivec3 at = a.cellOf(number) + step;
+                                   return a.contains(at) && !cells[a.numberOf(at)];
+                               });
+}
 
 // Compares what has attributes, and these as far as an operand has them.
 std::string compareLooks(const Dense& actual, const Dense& a, const Dense* b, const Expected& expected)
@@ -249,12 +261,8 @@ std::string compareLooks(const Dense& actual, const Dense& a, const Dense* b, co
         const auto in_a = a.looks.find(number);
         const bool known_a = in_a != a.looks.end();
         const bool known_b = b != nullptr && b->looks.contains(number);
-        bool is_exposed = !expected.filled;
-        for (const glm::ivec3& step : directions(false))
-        {
-            const glm::ivec3 at = actual.cellOf(number) + step;
-            is_exposed = is_exposed || (actual.contains(at) && !expected.cells[actual.numberOf(at)]);
-        }
+        const bool is_exposed = !expected.filled || isExposed(actual, expected.cells, number) ||
+                                (!expected.exposed.empty() && expected.exposed[number]);
         const auto found = actual.looks.find(number);
         if ((found != actual.looks.end()) != (known_a || known_b || is_exposed))
         {
@@ -339,7 +347,7 @@ std::string compareAlgebra(vk::HeadlessDevice& device, std::mt19937& random, std
         expected.filled = operation == TreeOperation::Unite       ? a.filled || b->filled
                           : operation == TreeOperation::Intersect ? a.filled && b->filled
                                                                   : a.filled;
-        result = combineTrees(device, operation, tree_a, tree_b);
+        result = applyAlgebra(device, {.operation = operation}, tree_a, &tree_b);
         if (operation == TreeOperation::Subtract)
         {
             b.reset(); // gives no attributes
@@ -349,10 +357,21 @@ std::string compareAlgebra(vk::HeadlessDevice& device, std::mt19937& random, std
     {
         const bool erodes = kind == 4;
         what = erodes ? "erosion" : "dilation";
-        expected.cells = spread(a, a.cells, corners, erodes);
-        const TreeOperation operation = erodes ? TreeOperation::Erode : TreeOperation::Dilate;
-        DeviceTree copy = uploadTree(device, downloadTree(device, tree_a));
-        result = spreadTree(device, operation, corners, 1, std::move(copy));
+        const std::uint32_t steps = 1 + below(random, 2);
+        expected.cells = a.cells;
+        for (std::uint32_t i = 0; i < steps; ++i)
+        {
+            expected.exposed.resize(a.cells.size());
+            for (std::size_t number = 0; i != 0 && number < a.cells.size(); ++number)
+            {
+                expected.exposed[number] = expected.cells[number] && isExposed(a, expected.cells, number);
+            }
+            expected.cells = spread(a, expected.cells, corners, erodes);
+        }
+        result = applyAlgebra(
+            device,
+            {.operation = erodes ? TreeOperation::Erode : TreeOperation::Dilate, .corners = corners, .voxels = steps},
+            tree_a);
     }
     else if (kind < 7)
     {
@@ -387,8 +406,10 @@ std::string compareAlgebra(vk::HeadlessDevice& device, std::mt19937& random, std
         {
             expected.cells[i] = a.cells[i] && (largest ? dense.of[i] == kept : dense.sizes[dense.of[i]] >= least);
         }
-        result = keepComponents(device, tree_a, corners, components,
-                                largest ? largestComponents(components, 1) : componentsFrom(least));
+        result = applyAlgebra(
+            device,
+            {.operation = TreeOperation::Keep, .corners = corners, .largest = largest ? 1U : 0U, .least_voxels = least},
+            tree_a);
     }
     else
     {
@@ -399,7 +420,7 @@ std::string compareAlgebra(vk::HeadlessDevice& device, std::mt19937& random, std
             expected.cells[i] = a.cells[i] || !space.reaches_out[space.of[i]];
         }
         expected.filled = true;
-        result = encloseTree(device, tree_a);
+        result = applyAlgebra(device, {.operation = TreeOperation::Enclose}, tree_a);
     }
     const std::string difference = compareResult(device, result, a, b ? &*b : nullptr, expected, attributes);
     return difference.empty() ? difference

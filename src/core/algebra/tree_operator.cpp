@@ -15,6 +15,14 @@
 namespace zvo
 {
 
+static_assert(static_cast<gpu::uint>(TreeOperation::Unite) == gpu::kUnite);
+static_assert(static_cast<gpu::uint>(TreeOperation::Intersect) == gpu::kIntersect);
+static_assert(static_cast<gpu::uint>(TreeOperation::Subtract) == gpu::kSubtract);
+static_assert(static_cast<gpu::uint>(TreeOperation::Keep) == gpu::kKeep);
+static_assert(static_cast<gpu::uint>(TreeOperation::Enclose) == gpu::kEnclose);
+static_assert(static_cast<gpu::uint>(TreeOperation::Dilate) == gpu::kDilate);
+static_assert(static_cast<gpu::uint>(TreeOperation::Erode) == gpu::kErode);
+
 namespace
 {
 

@@ -7,6 +7,7 @@
 #include "core/tree/device_tree.h"
 #include "core/upload/gpu_scene.h"
 #include "vk/timer.h"
+#include "zvo/enums.h"
 
 #include <cstdint>
 #include <optional>
@@ -14,18 +15,6 @@
 
 namespace zvo
 {
-
-/// What an octree is made of one or two others by (shaders/algebra/algebra.h).
-enum class TreeOperation : std::uint32_t
-{
-    Unite = gpu::kUnite,
-    Intersect = gpu::kIntersect,
-    Subtract = gpu::kSubtract,
-    Keep = gpu::kKeep,
-    Enclose = gpu::kEnclose,
-    Dilate = gpu::kDilate,
-    Erode = gpu::kErode
-};
 
 /// An operation and its operands, which outlive the job.
 struct OperationInfo
