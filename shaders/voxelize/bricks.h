@@ -155,6 +155,7 @@ struct BinParams // push constants of voxelize/bin: a thread a triangle
     GPU_PTR(BinCounters) counters;  // [1]
     vec3 origin;                    // world position of the grid's minimum corner
     float lattice_scale;            // lattice units per world unit
+    ivec3 lattice_offset;           // is added to lattice positions
     uint window;                    // depth of the grid, and which cube of it is voxelized (voxelize/window.h)
     uint brick_mask;
     uint chunk_count;

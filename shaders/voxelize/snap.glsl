@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // A triangle on the lattice, and whether it is left out (docs/voxelization.md).
-// Needs what voxelize/vertex.glsl and window.glsl need.
+// Needs what voxelize/vertex.glsl and window.glsl need, and params.lattice_offset.
 #ifndef ZVO_SHADERS_VOXELIZE_SNAP_GLSL
 #define ZVO_SHADERS_VOXELIZE_SNAP_GLSL
 
@@ -45,7 +45,8 @@ void spreadPoint(inout SnappedTriangle t, ivec3 shift)
 {
     const int quarter = kVoxelLattice / 4;
     ivec3 inside = min(t.v0, kVoxelLattice * gridResolution() - 1); // the grid's upper faces are the last layers'
-    ivec3 corner = (inside + shift * (kVoxelLattice / 2)) & ~(kVoxelLattice - 1);
+    ivec3 place = inside - params.lattice_offset + shift * (kVoxelLattice / 2);
+    ivec3 corner = (place & ~(kVoxelLattice - 1)) + params.lattice_offset;
     t.v0 = corner + ivec3(quarter, quarter, 2 * quarter);
     t.v1 = corner + ivec3(3 * quarter, quarter, 2 * quarter);
     t.v2 = corner + ivec3(quarter, 3 * quarter, 2 * quarter);
@@ -64,9 +65,9 @@ SnappedTriangle snapTriangle(Draw draw, uvec3 vertices, bool drops_flat)
     bool in_range = finite && onLattice(q0) && onLattice(q1) && onLattice(q2);
 
     SnappedTriangle t;
-    t.v0 = in_range ? ivec3(q0) : ivec3(0);
-    t.v1 = in_range ? ivec3(q1) : ivec3(0);
-    t.v2 = in_range ? ivec3(q2) : ivec3(0);
+    t.v0 = in_range ? ivec3(q0) + params.lattice_offset : ivec3(0);
+    t.v1 = in_range ? ivec3(q1) + params.lattice_offset : ivec3(0);
+    t.v2 = in_range ? ivec3(q2) + params.lattice_offset : ivec3(0);
     touchedVoxels(t);
     bool outside = any(lessThan(t.high, ivec3(0))) || any(greaterThanEqual(t.low, ivec3(gridResolution())));
     if (draw.is_points != 0u)

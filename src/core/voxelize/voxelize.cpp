@@ -128,6 +128,7 @@ void binChunks(vk::FrameGraph& graph, const VoxelizeJob& job, MaterialClass mate
     params.counters = pass.readWrite(buffers.counters);
     params.origin = grid.origin;
     params.lattice_scale = latticeScale(grid);
+    params.lattice_offset = job.lattice_offset;
     params.window = windowOf(job.tile);
     params.brick_mask = count32(buffers.table) - 1;
     params.chunk_count = static_cast<std::uint32_t>(count);

@@ -124,6 +124,7 @@ struct VoxelizeJob
     PosedGpuScene scene;
     GridTile tile;
     VoxelizeBuffers& buffers;
+    glm::ivec3 lattice_offset{0}; // is added to lattice positions: triangles lie elsewhere in the grid
 };
 
 /// The `window` of kernels for a tile (voxelize/window.h).
