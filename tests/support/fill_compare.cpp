@@ -15,10 +15,6 @@
 namespace zvo::test
 {
 
-namespace
-{
-
-// The triangles of a scene on the lattice.
 std::vector<oracle::Triangle> latticeTriangles(const Scene& scene, const Grid& grid)
 {
     std::vector<oracle::Triangle> triangles;
@@ -35,8 +31,6 @@ std::vector<oracle::Triangle> latticeTriangles(const Scene& scene, const Grid& g
     }
     return triangles;
 }
-
-} // namespace
 
 FillComparison compareFill(vk::HeadlessDevice& device, const Scene& scene, const Grid& grid, Coverage coverage,
                            Fill fill)

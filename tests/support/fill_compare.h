@@ -4,14 +4,19 @@
 
 #include "core/base/grid.h"
 #include "core/scene/scene.h"
+#include "oracle/coverage.h"
 #include "vk/headless.h"
 #include "zvo/types.h"
 
 #include <cstdint>
 #include <random>
+#include <vector>
 
 namespace zvo::test
 {
+
+/// The triangles of a scene on the lattice; none of them may be dropped.
+std::vector<oracle::Triangle> latticeTriangles(const Scene& scene, const Grid& grid);
 
 /// How a filled tree compares with what the winding numbers of its scene say.
 struct FillComparison

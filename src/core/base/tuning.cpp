@@ -19,6 +19,7 @@ constexpr TuningValue kNodeLanes[] = {{"1", 1}, {"2", 2}, {"4", 4}, {"8", 8}, {"
 constexpr TuningValue kBeamLanes[] = {{"1", 1}, {"2", 2}, {"4", 4}, {"8", 8}, {"16", 16}};
 constexpr TuningValue kBlockLanes[] = {{"1", 1}, {"2", 2}, {"4", 4}, {"8", 8}, {"16", 16}, {"32", 32}};
 constexpr TuningValue kBrickLanes[] = {{"2", 2}, {"4", 4}, {"8", 8}};
+constexpr TuningValue kBandLanes[] = {{"8", 8}, {"16", 16}, {"32", 32}, {"64", 64}};
 constexpr TuningValue kSwitches[] = {{"off", 0}, {"on", 1}};
 constexpr TuningValue kPathForms[] = {{"stages", 0}, {"kernel", 1}};
 constexpr TuningValue kSubgroupSizes[] = {{"auto", 0}, {"4", 4},   {"8", 8},    {"16", 16},
@@ -31,13 +32,14 @@ constexpr TuningValue kLoads[] = {{"auto", static_cast<std::uint32_t>(vk::LoadFo
 
 // A GPU wants many short threads: the slowest one sets a pass's time. On software devices idle threads and barriers
 // cost as much as others, and threads share what they compute of a triangle. Measured on an H100: docs/performance.md.
-constexpr std::array<TuningRow, 8> kTable = {{
+constexpr std::array<TuningRow, 9> kTable = {{
     {Tunable::NodeLanes, "node-lanes", "threads that share a node", 1, 4, kNodeLanes},
     {Tunable::BlockLanes, "block-lanes", "threads that share a block of a large triangle", 1, 16, kBlockLanes},
     {Tunable::BrickLanes, "brick-lanes", "threads that share the leaves of a brick", 2, 8, kBrickLanes},
     {Tunable::MixedSums, "mixed-sums", "sums of voxels with several fragments alone", 1, 1, kSwitches},
     {Tunable::PathForm, "path-form", "paths in stages, or whole in one kernel", 0, 1, kPathForms},
     {Tunable::BeamLanes, "beam-lanes", "threads that share a beam", 1, 4, kBeamLanes},
+    {Tunable::BandLanes, "band-lanes", "threads that measure distances to a piece of a triangle", 8, 32, kBandLanes},
     {Tunable::SubgroupSize, vk::kSubgroupSizeName, "threads of a subgroup", 0, 0, kSubgroupSizes},
     {Tunable::Loads, vk::kLoadsName, "how kernels that have both forms reach their buffers", 0, 0, kLoads},
 }};

@@ -23,6 +23,7 @@ enum class Tunable : std::uint8_t
     MixedSums,
     PathForm,
     BeamLanes,
+    BandLanes,
     SubgroupSize,
     Loads
 };
