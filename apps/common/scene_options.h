@@ -47,7 +47,8 @@ struct VoxelOptions
     std::optional<std::filesystem::path> scenes_folder; // another folder for the files that a scene file names
     std::optional<double> time;                         // seconds, from 0 on
     std::optional<std::uint32_t> depth;                 // not given: the scene file's, or 9
-    std::optional<std::uint32_t> margin;                // free voxels around the scene; not given: 0
+    std::optional<std::uint32_t> margin;                // free voxels around the scene; not given: default_margin
+    std::uint32_t default_margin = 0;
     Coverage coverage = TreeBuildInfo().coverage;
     Fill fill = Fill::None;
     AttributeFormat attributes = AttributeFormat::Bytes8; // of the voxels; packed formats only for build

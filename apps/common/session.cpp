@@ -208,7 +208,7 @@ AnimatedScene loadAnimatedSceneWithWarnings(const VoxelOptions& options, bool in
 }
 
 GpuScene uploadWithWarnings(vk::HeadlessDevice& device, const Scene& scene, const VoxelOptions& options,
-                            const Grid& grid, Progress& progress)
+                            const std::optional<Grid>& grid, Progress& progress)
 {
     GpuScene uploaded = uploadScene(device, scene, options.hasAttributes(), std::nullopt,
                                     {grid, options.coverage, [&](double done) { progress.within(done); }});
@@ -229,7 +229,7 @@ Grid placeGrid(const VoxelOptions& options, const AnimatedScene& animated, const
     {
         return Grid::withCorner(*wanted, depth);
     }
-    const std::uint32_t margin = options.margin.value_or(0);
+    const std::uint32_t margin = options.margin.value_or(options.default_margin);
     if (2 * margin >= 1U << depth)
     {
         throw Error(ErrorCode::Usage,

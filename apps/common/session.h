@@ -55,9 +55,10 @@ Scene loadWithWarnings(std::span<const std::filesystem::path> paths, const LoadO
 AnimatedScene loadAnimatedSceneWithWarnings(const VoxelOptions& options, bool in_motion,
                                             ImageDecoding decoding = ImageDecoding::WhenLoaded);
 
-/// Uploads a scene for its grid. Shows the progress of decoding images, and reports those that do not decode.
+/// Uploads a scene for its grid, or for any. Shows the progress of decoding images, and reports those that do not
+/// decode.
 GpuScene uploadWithWarnings(vk::HeadlessDevice& device, const Scene& scene, const VoxelOptions& options,
-                            const Grid& grid, Progress& progress);
+                            const std::optional<Grid>& grid, Progress& progress);
 
 /// The grid that options or the animated scene ask for, or else the grid around bounds, those of the animated scene.
 Grid placeGrid(const VoxelOptions& options, const AnimatedScene& animated, const Bounds& bounds);

@@ -95,12 +95,13 @@ void voxelize(const VoxelizeOptions& options);
 struct BuildFileOptions
 {
     VoxelOptions voxels;
+    std::optional<std::uint32_t> distance;  // voxels: distances in place of a tree
     std::optional<TreeStructure> structure; // not given: a DAG, or what is filled, an octree
     DeviceOptions device;
     OutputOptions output;
 };
 
-/// `zvo build`: voxelizes scenes and writes the tree to a .zvo file. Throws Error.
+/// `zvo build`: voxelizes scenes and writes the tree to a .zvo file, or distances to a .nvdb file. Throws Error.
 void buildFile(const BuildFileOptions& options);
 
 struct InspectOptions

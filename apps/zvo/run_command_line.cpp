@@ -9,6 +9,7 @@
 #include "common/progress.h"
 #include "common/run_program.h"
 #include "common/view.h"
+#include "core/distance/distance_builder.h"
 #include "zvo/error.h"
 
 #include <CLI/CLI.hpp>
@@ -253,6 +254,10 @@ void addOptions(CLI::App& build, BuildFileOptions& options)
 {
     addVoxelOptions(build, options.voxels);
     addFillOption(build, options.voxels.fill);
+    addValue(build, "--distance", options.distance, integerIn(1, DistanceOptions::kBandMax), "VOXELS",
+             "in place of a tree, the signed distances of voxels' centres to the surface, as far as that: a level set "
+             "in a .nvdb file")
+        ->group("Scene");
     addStructureOption(build, options.structure, kStructureHelp);
     static constexpr auto kAttributeFormats =
         std::to_array<Named<AttributeFormat>>({{"none", AttributeFormat::None},
@@ -263,7 +268,7 @@ void addOptions(CLI::App& build, BuildFileOptions& options)
              "colour, normal and emission of the voxels: colour and normal in 4 or 8 bytes or in blocks of 16, "
              "which take 24; or only their places (default 8)",
              "none, 4, 8 or block");
-    addOutputOptions(build, options.output, "the tree, a .zvo file; - is standard output");
+    addOutputOptions(build, options.output, "the tree, a .zvo file, or distances, a .nvdb file; - is standard output");
     addDeviceOptions(build, options.device);
 }
 

@@ -10,6 +10,8 @@
 #include "common/words.h"
 #include "core/file/zvo_file.h"
 #include "core/upload/gpu_scene.h"
+#include "io/voxel/nvdb_distances.h"
+#include "runtime/distances.h"
 #include "runtime/octree_sha256.h"
 #include "runtime/tiled_build.h"
 #include "runtime/trees.h"
@@ -37,7 +39,9 @@ namespace
 class VoxelRun
 {
 public:
-    VoxelRun(const VoxelOptions& voxels, const DeviceOptions& device, const OutputOptions& outputs)
+    // whole_textures: those that the scene would need in any grid.
+    VoxelRun(const VoxelOptions& voxels, const DeviceOptions& device, const OutputOptions& outputs,
+             bool whole_textures = false)
         : output(outputs.path, outputs.overwrite), m_report(openReport(outputs)), m_submission_ms(device.dispatch_ms)
     {
         progress.begin("loading");
@@ -56,7 +60,8 @@ public:
         counts = SceneCounts::of(still, grid, voxels.coverage);
         progress.begin("copying to the device");
         m_device = openDevice(device);
-        m_scene.emplace(uploadWithWarnings(*m_device, still, voxels, grid, progress));
+        m_scene.emplace(uploadWithWarnings(*m_device, still, voxels,
+                                           whole_textures ? std::nullopt : std::optional(grid), progress));
     }
 
     [[nodiscard]] vk::HeadlessDevice& device() { return *m_device; }
@@ -112,9 +117,13 @@ std::string formatOf(const VoxelizeOptions& options)
     return extension.substr(1);
 }
 
-void checkName(const OutputOptions& options)
+void checkName(const OutputOptions& options, bool distances)
 {
-    if (options.path != "-" && extensionOf(options.path) != ".zvo")
+    if (distances && options.path != "-" && extensionOf(options.path) != ".nvdb")
+    {
+        throw Error(ErrorCode::Usage, fmt::format("-o {}: distances are .nvdb files; name it .nvdb", options.path));
+    }
+    if (!distances && options.path != "-" && extensionOf(options.path) != ".zvo")
     {
         throw Error(ErrorCode::Usage, fmt::format("-o {}: trees are .zvo files; name it .zvo", options.path));
     }
@@ -181,6 +190,58 @@ Json builtJson(VoxelRun& run, const BuildFileOptions& options, const Built& buil
     return json;
 }
 
+void distanceFile(const BuildFileOptions& options)
+{
+    if (options.structure || options.voxels.attributes != VoxelOptions().attributes)
+    {
+        throw Error(ErrorCode::Usage, "--distance goes without --structure and --attributes: it makes no tree");
+    }
+    VoxelOptions voxels = options.voxels;
+    voxels.fill = voxels.fill == Fill::None ? Fill::Solid : voxels.fill;
+    voxels.attributes = AttributeFormat::None;
+    voxels.default_margin = *options.distance + 1;
+    VoxelRun run(voxels, options.device, options.output, true);
+
+    run.progress.begin("measuring");
+    BuildResult filled;
+    DistanceResult result;
+    run.watch(
+        [&]
+        {
+            filled = buildOctree(run.device(), run.scene(), run.grid, voxels.build());
+            result =
+                findDistances(run.device(), run.scene(), run.grid, {.band = *options.distance, .fill = voxels.fill});
+        });
+    run.freeScene();
+    warnOfDropped(result.distances.leaf_count, result.dropped, run.counts, voxels.load.strict);
+    warnOfOpenLines(filled.open_lines, voxels.load.strict);
+
+    run.progress.begin("writing");
+    writeNvdbDistances(downloadDistances(run.device(), result.distances), downloadTree(run.device(), filled.octree),
+                       [&run](std::span<const std::byte> bytes) { run.output.write(bytes); });
+    const double ms = operationMs(result.passes, "distance");
+    run.finish(
+        [&]
+        {
+            Json json = headJson("zvo.distance/1", run.device().device().report(), voxels, run.grid);
+            json["scene"] = sceneJson(run.counts, result.dropped);
+            json["distance"] = *options.distance;
+            json["leaves"] = result.distances.leaf_count;
+            json["bytes"] = {{"distances", result.distances.squared.bytes() + result.distances.leaves.bytes()},
+                             {"peak_device", run.device().device().memory().peakBytes()}};
+            json["cold_run"] = true;
+            json["retries"] = result.retry_count;
+            json["passes"] = passesJson(sumByName(result.passes));
+            json["voxelize_ms"] = operationMs(result.passes, "voxelize");
+            json["distance_ms"] = ms;
+            return json;
+        });
+    tellRun(fmt::format("{} of 4^3 distances up to {}, of {}^3 from {}; voxelize {:.1f} ms, measure {:.1f} ms on {}",
+                        counted(result.distances.leaf_count, "block"), counted(*options.distance, "voxel"),
+                        run.grid.resolution(), run.counts.told(), operationMs(result.passes, "voxelize"), ms,
+                        run.device().device().report().name));
+}
+
 } // namespace
 
 void voxelize(const VoxelizeOptions& options)
@@ -215,7 +276,12 @@ void voxelize(const VoxelizeOptions& options)
 
 void buildFile(const BuildFileOptions& options)
 {
-    checkName(options.output);
+    checkName(options.output, options.distance.has_value());
+    if (options.distance)
+    {
+        distanceFile(options);
+        return;
+    }
     const bool is_filled = options.voxels.fill != Fill::None;
     const bool is_dag =
         options.structure.value_or(is_filled ? TreeStructure::Svo : TreeStructure::Svdag) == TreeStructure::Svdag;

@@ -12,6 +12,7 @@
 #include "lanes/kernel_names.h"
 #include "lanes/traced_pictures.h"
 #include "oracle/voxelizer.h"
+#include "runtime/distances.h"
 #include "runtime/run_job.h"
 #include "runtime/svdag_forest.h"
 #include "runtime/trees.h"
@@ -248,6 +249,9 @@ void buildDark(const Grid& grid, Coverage coverage)
         const BuildResult filled = buildOctree(device(), dark, grid, {.coverage = coverage, .fill = Fill::Solid});
         noteKernels(filled.passes);
         EXPECT_GT(filled.octree.interior_count, 0U);
+        const DistanceResult near = findDistances(device(), dark, grid, {.band = 2});
+        noteKernels(near.passes);
+        EXPECT_GT(near.distances.leaf_count, 0U);
     }
 }
 

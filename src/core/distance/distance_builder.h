@@ -33,7 +33,9 @@ struct DeviceDistances
 /// Options of a DistanceBuilder.
 struct DistanceOptions
 {
-    std::uint32_t band = 3;  // voxels: 1 to gpu::kBandMax
+    static constexpr std::uint32_t kBandMax = gpu::kBandMax;
+
+    std::uint32_t band = 3;  // voxels: 1 to kBandMax
     Fill fill = Fill::Solid; // what is inside; None: nothing, distances have no sign
     std::optional<VoxelizeCapacities> capacities = std::nullopt; // of the first run; by default, an estimate
 };

@@ -4,18 +4,13 @@
 #include "core/base/morton.h"
 #include "core/base/srgb.h"
 #include "core/tree/colored_voxels.h"
-#include "zvo/error.h"
+#include "io/voxel/nvdb_grids.h"
 
 #include <fmt/format.h>
-#include <nanovdb/util/GridBuilder.h>
-#include <nanovdb/util/IO.h>
 
 #include <array>
 #include <cstdint>
 #include <new>
-#include <sstream>
-#include <stdexcept>
-#include <string>
 
 namespace zvo
 {
@@ -23,11 +18,9 @@ namespace zvo
 namespace
 {
 
-using Handle = nanovdb::GridHandle<>;
-
 // A grid in which the voxels are active. valueOf: of a colour. Throws std::bad_alloc if memory does not suffice.
 template <typename Value, typename ValueOf>
-Handle gridOf(const TreeData& tree, const char* name, nanovdb::GridClass grid_class, const ValueOf& valueOf)
+NvdbHandle gridOf(const TreeData& tree, const char* name, nanovdb::GridClass grid_class, const ValueOf& valueOf)
 {
     nanovdb::GridBuilder<Value> builder(Value(0.0F), grid_class);
     auto values = builder.getAccessor();
@@ -37,19 +30,10 @@ Handle gridOf(const TreeData& tree, const char* name, nanovdb::GridClass grid_cl
                             const glm::ivec3 cell(cellOfCode(code));
                             values.setValue({cell.x, cell.y, cell.z}, valueOf(color));
                         });
-    const Grid& grid = tree.grid;
-    const glm::dvec3 center = glm::dvec3(grid.origin) + 0.5 * double{grid.voxel_size};
-    try
-    {
-        return builder.getHandle(double{grid.voxel_size}, {center.x, center.y, center.z}, name);
-    }
-    catch (const std::runtime_error&) // thrown only when its buffer or thread could not be made
-    {
-        throw std::bad_alloc();
-    }
+    return nvdbGrid(builder, tree.grid, name);
 }
 
-std::array<Handle, 2> gridsOf(const TreeData& tree)
+std::array<NvdbHandle, 2> gridsOf(const TreeData& tree)
 {
     std::array<float, 256> linear{};
     for (std::uint32_t i = 0; i < linear.size(); ++i)
@@ -64,21 +48,7 @@ std::array<Handle, 2> gridsOf(const TreeData& tree)
                                    })};
 }
 
-// The bytes before the grids. The library's own writer needs a file in which it can seek back.
-std::string headOf(const std::array<Handle, 2>& grids)
-{
-    nanovdb::io::Segment segment;
-    for (const Handle& grid : grids)
-    {
-        segment.add(grid);
-        segment.meta.back().fileSize = grid.size();
-    }
-    std::ostringstream head;
-    segment.write(head);
-    return head.str();
-}
-
-std::array<Handle, 2> gridsInMemory(const TreeData& tree)
+std::array<NvdbHandle, 2> gridsInMemory(const TreeData& tree)
 {
     try
     {
@@ -86,10 +56,8 @@ std::array<Handle, 2> gridsInMemory(const TreeData& tree)
     }
     catch (const std::bad_alloc&)
     {
-        throw Error(ErrorCode::Memory,
-                    fmt::format("the host's memory does not suffice for the NanoVDB grids of {} voxels, which take "
-                                "about 14 KiB for each block of 8^3 cells with voxels: lower the resolution",
-                                tree.occupiedCount()));
+        throwNoMemoryForNvdb(fmt::format("{} voxels, which take about 14 KiB for each block of 8^3 cells with voxels",
+                                         tree.occupiedCount()));
     }
 }
 
@@ -97,13 +65,7 @@ std::array<Handle, 2> gridsInMemory(const TreeData& tree)
 
 void writeNvdb(const TreeData& tree, const WriteBytes& write)
 {
-    const std::array<Handle, 2> grids = gridsInMemory(tree);
-    const std::string head = headOf(grids);
-    write(std::as_bytes(std::span(head)));
-    for (const Handle& grid : grids)
-    {
-        write({reinterpret_cast<const std::byte*>(grid.data()), grid.size()});
-    }
+    writeNvdbGrids(gridsInMemory(tree), write);
 }
 
 } // namespace zvo
