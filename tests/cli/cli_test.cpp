@@ -108,6 +108,11 @@ TEST_F(CliRun, FillsWhatIsClosedInAllOfItsFiles)
     EXPECT_EQ(file("a.png"), file("b.png"));
     expectError("build cube.glb --resolution 16 --fill solid --structure svdag -o a.zvo", 2, {"--structure svo"});
     expectError("voxelize cube.glb --resolution 4 --fill solid -o a.morton", 2, {"resolution of 8"});
+    run("build cube.glb --resolution 16 --distance 2 -o near.nvdb --json near.json");
+    EXPECT_GT(json::parse(file("near.json"))["leaves"], 8);
+    expectError("build cube.glb --resolution 16 --distance 2 -o a.zvo", 2, {"name it .nvdb"});
+    expectError("build cube.glb --resolution 16 --distance 2 --structure svo -o a.nvdb", 2, {"goes without"});
+    expectError("build cube.glb --resolution 16 --distance 16 -o a.nvdb", 2, {"--distance"});
 }
 
 TEST_F(CliRun, EditsTreesByScripts)
