@@ -54,7 +54,7 @@ bool run(const Options& options)
         const Grid grid = {glm::vec3(0), 1.0F, 3 + i % 3};
         const bool is_closed = i % 2 == 0;
         const Scene soup =
-            is_closed ? test::tetrahedra(random, grid) : test::randomTriangles(random(), 1 + i % 20, 1.2F * 8);
+            is_closed ? test::tetrahedra(random, grid) : test::randomTriangles(options.seed + i, 1 + i % 20, 1.2F * 8);
         is_well = compare(device, fmt::format("soup {} of seed {}", i, options.seed), soup, grid, 1 + i % 15,
                           i % 4 == 0 ? Fill::Parity : Fill::Solid) &&
                   is_well;
