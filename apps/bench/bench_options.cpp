@@ -10,6 +10,7 @@
 #include "bench/bench_edit.h"
 #include "bench/bench_path.h"
 #include "bench/bench_queries.h"
+#include "bench/bench_solid.h"
 #include "bench/bench_rays.h"
 #include "bench/bench_report.h"
 #include "bench/bench_tune.h"
@@ -81,6 +82,14 @@ nearest voxel, and boxes that move.
 
 Examples:
   zvo-bench queries scenes/atrium.glb --resolutions 256,1024)";
+
+constexpr const char* kSolidFooter = R"(
+Builds and primary rays of surfaces and of what is filled, in turns; dilation and erosion by a voxel, the union of what
+is filled with what is eroded, and their difference; of the surface, the largest component and what is enclosed; and
+distances.
+
+Examples:
+  zvo-bench solid scenes/knot.glb --resolutions 256,512)";
 
 constexpr const char* kPathFooter = R"(
 Paths in stages and in one kernel. Where zvo-bench was built with Embree, it traces the same rays of bounces, one by
@@ -264,6 +273,15 @@ void addOptions(CLI::App& app, BenchQueriesOptions& options)
     addTreeAndDevice(app, options);
 }
 
+void addOptions(CLI::App& app, BenchSolidOptions& options)
+{
+    addScenes(app, options, kScenes, kUsualFolder);
+    addResolutions(app, options, "512");
+    addRuns(app, options);
+    addLoadOptions(app, options.load);
+    addTreeAndDevice(app, options);
+}
+
 void addOptions(CLI::App& app, BenchPathOptions& options)
 {
     addScenes(app, options, kScenes, kUsualFolder);
@@ -356,6 +374,8 @@ void runBenchCommandLine(int argc, const char* const* argv)
     commands.add("edit", "measure strokes of a brush: dabs, undo and redo", kEditFooter, addOptions, benchEdit);
     commands.add("queries", "measure questions to octree and DAG: points, boxes, nearest voxels", kQueriesFooter,
                  addOptions, benchQueries);
+    commands.add("solid", "measure filled octrees beside surfaces, algebra of trees, and distances", kSolidFooter,
+                 addOptions, benchSolid);
     commands.add("path", "measure path tracing: what rays cost, and variance by the way of finding light", kPathFooter,
                  addOptions, benchPath);
     commands.add("cache", "measure pictures by the radiance cache, beside one of many paths", kCacheFooter, addOptions,

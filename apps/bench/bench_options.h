@@ -83,6 +83,10 @@ struct BenchQueriesOptions : RepeatedBenchOptions
     std::uint32_t count = 1U << 20; // questions of each kind
 };
 
+struct BenchSolidOptions : RepeatedBenchOptions
+{
+};
+
 struct BenchPathOptions : RepeatedBenchOptions, PictureSizeOptions
 {
     std::string camera;

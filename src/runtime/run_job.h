@@ -5,17 +5,23 @@
 #include "vk/headless.h"
 
 #include <concepts>
+#include <utility>
+#include <vector>
 
 namespace zvo
 {
 
-/// Runs a job to its end, waiting after each step. Throws what the steps throw.
-inline void runSteps(vk::HeadlessDevice& device, StepJob& job)
+/// Runs a job to its end, waiting after each step. Returns the passes of all steps. Throws what the steps throw.
+inline std::vector<vk::PassTime> runSteps(vk::HeadlessDevice& device, StepJob& job)
 {
+    std::vector<vk::PassTime> passes;
     while (!job.isDone())
     {
-        job.resume(device.run([&](vk::FrameGraph& graph) { job.record(graph); }));
+        std::vector<vk::PassTime> more = device.run([&](vk::FrameGraph& graph) { job.record(graph); });
+        passes.insert(passes.end(), more.begin(), more.end());
+        job.resume(std::move(more));
     }
+    return passes;
 }
 
 /// The same; returns the job's result.

@@ -23,8 +23,8 @@ TEST_F(BenchRun, HelpAndVersionAreData)
 {
     EXPECT_TRUE(run({"--version"}).out.starts_with("zvo-bench "));
     const std::string help = run({"--help"}).out;
-    for (const char* command : {"build", "rays", "dynamic", "edit", "queries", "path", "cache", "denoise", "baselines",
-                                "balance", "tune", "report"})
+    for (const char* command : {"build", "rays", "dynamic", "edit", "queries", "solid", "path", "cache", "denoise",
+                                "baselines", "balance", "tune", "report"})
     {
         EXPECT_TRUE(contains(help, std::string("\n  ") + command + " ")) << command;
         const Outcome outcome = run({command, "--help"});
@@ -274,6 +274,26 @@ TEST_F(BenchRun, BalanceNeedsNoAttributesAndNoFiles)
     EXPECT_EQ(report["ratios"].size(), 6U);
     EXPECT_TRUE(report["rows"][0]["attributes_ms"].is_null());
     EXPECT_TRUE(report["ratios"][0]["attributes"].is_null());
+}
+
+TEST_F(BenchRun, SolidTellsWhatFillingAndAlgebraTake)
+{
+    const Outcome outcome = run({"solid", "cube.glb", "--resolutions", "32", "--runs", "1", "--json", "solid.json"});
+    EXPECT_TRUE(contains(outcome.out, "\n| cube "));
+    const json report = json::parse(file("solid.json"));
+    EXPECT_EQ(report["schema"], "zvo.bench_solid/1");
+    ASSERT_EQ(report["rows"].size(), 11U);
+    std::map<std::string, std::uint64_t> voxels;
+    for (const json& row : report["rows"])
+    {
+        expectFields(row, {"scene string", "work string", "voxels number"});
+        EXPECT_GT(row["ms"]["median"], 0);
+        voxels[row["work"]] = row["voxels"];
+    }
+    EXPECT_EQ(voxels["enclose"], voxels["build and fill"]);
+    EXPECT_EQ(voxels["union"], voxels["build and fill"]);
+    EXPECT_EQ(voxels["difference"] + voxels["erode"], voxels["build and fill"]);
+    EXPECT_EQ(voxels["largest component"], voxels["build the surface"]);
 }
 
 TEST_F(BenchRun, QueriesTellsOctreeAndDagByKind)
