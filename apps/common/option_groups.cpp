@@ -98,9 +98,11 @@ void addCoverageOption(CLI::App& app, Coverage& coverage)
 
 void addFillOption(CLI::App& app, Fill& fill)
 {
-    addNamed(app, "--fill", fill, kFills,
-             "also the voxels that surfaces enclose: whose winding number is not 0, or odd (default none)",
-             "none, solid or parity");
+    addNamed(
+        app, "--fill", fill, kFills,
+        "also the voxels that surfaces enclose: whose winding number is not 0, or odd; or by what most rays say, where "
+        "surfaces have holes (default none)",
+        "none, solid, parity or robust");
 }
 
 void addAttributesOption(CLI::App& app, bool& attributes)

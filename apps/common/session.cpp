@@ -260,17 +260,22 @@ bool warnOfDropped(std::uint64_t voxel_count, const std::map<std::string, std::u
     return !lines.empty();
 }
 
-bool warnOfOpenLines(std::uint32_t open_lines, bool strict)
+bool warnOfOpenSurfaces(const OpenSurfaces& open, bool strict)
 {
-    if (open_lines != 0)
+    if (open.lines == 0)
     {
-        warnOrRefuse(
-            {fmt::format("the surfaces are open, or reach out of the grid: {} of voxels {} inside below all of "
-                         "them, so that what is filled there may be wrong",
-                         counted(open_lines, "vertical line"), open_lines == 1 ? "is" : "are")},
-            strict);
+        return false;
     }
-    return open_lines != 0;
+    const bool one = open.lines == 1;
+    const std::string effect =
+        open.undecided
+            ? fmt::format("{} of voxels {} inside behind all of them; what most rays and neighbours say is filled, "
+                          "and {} that cannot be decided left out",
+                          counted(open.lines, "line"), one ? "is" : "are", counted(*open.undecided, "voxel"))
+            : fmt::format("{} of voxels {} inside below all of them, so that what is filled there may be wrong",
+                          counted(open.lines, "vertical line"), one ? "is" : "are");
+    warnOrRefuse({"the surfaces are open, or reach out of the grid: " + effect}, strict);
+    return true;
 }
 
 bool warnOfDroppedTriangles(double seconds, const std::map<std::string, std::uint64_t>& dropped)

@@ -66,7 +66,7 @@ Grid placeGrid(const VoxelOptions& options, const AnimatedScene& animated, const
 /// Reports if there are no voxels, and why; connected parts without any; and triangles that were left out because their
 /// numbers make no sense. dropped: triangles by reason. Returns whether anything was reported. strict: throws
 /// Error{Input} in place of it.
-bool warnOfOpenLines(std::uint32_t open_lines, bool strict);
+bool warnOfOpenSurfaces(const OpenSurfaces& open, bool strict);
 bool warnOfDropped(std::uint64_t voxel_count, const std::map<std::string, std::uint64_t>& dropped,
                    const SceneCounts& counts, bool strict);
 

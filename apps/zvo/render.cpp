@@ -115,7 +115,7 @@ public:
                 m_counts.triangles += scene.info().moving_triangle_count;
                 warnOfDropped(part.voxel_count + update.report.dynamic_count, part.dropped, m_counts,
                               m_options.voxels.load.strict);
-                warnOfOpenLines(part.open_lines, m_options.voxels.load.strict);
+                warnOfOpenSurfaces(part.open, m_options.voxels.load.strict);
                 m_report.addAnimatedScene(scene, update);
                 m_report.addNodePaths(paths_passes);
             }
@@ -214,7 +214,7 @@ private:
             m_has_warned =
                 m_has_warned ||
                 warnOfDropped(built.octree.voxel_count, built.dropped, m_counts, m_options.voxels.load.strict) ||
-                warnOfOpenLines(built.open_lines, m_options.voxels.load.strict);
+                warnOfOpenSurfaces(built.open, m_options.voxels.load.strict);
             report(built);
         };
         StaticPart part;

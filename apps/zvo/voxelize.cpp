@@ -137,7 +137,7 @@ struct Built
     std::vector<vk::PassTime> passes;
     std::uint32_t retry_count = 0;
     std::uint32_t tile_count = 1;
-    std::uint32_t open_lines = 0;
+    OpenSurfaces open = {};
 };
 
 Built buildSvo(VoxelRun& run, const BuildFileOptions& options)
@@ -150,7 +150,7 @@ Built buildSvo(VoxelRun& run, const BuildFileOptions& options)
             std::move(result.passes),
             result.retry_count,
             1,
-            result.open_lines};
+            result.open};
 }
 
 Built buildSvdag(VoxelRun& run, const BuildFileOptions& options)
@@ -255,7 +255,7 @@ void voxelize(const VoxelizeOptions& options)
     BuildResult result;
     run.watch([&] { result = buildOctree(device, run.scene(), run.grid, options.voxels.build()); });
     warnOfDropped(result.octree.voxel_count, result.dropped, run.counts, options.voxels.load.strict);
-    warnOfOpenLines(result.open_lines, options.voxels.load.strict);
+    warnOfOpenSurfaces(result.open, options.voxels.load.strict);
 
     run.progress.begin("writing");
     {
@@ -297,7 +297,7 @@ void buildFile(const BuildFileOptions& options)
     run.watch([&] { built = is_dag ? buildSvdag(run, options) : buildSvo(run, options); });
     run.freeScene();
     warnOfDropped(built.tree.voxel_count, built.dropped, run.counts, options.voxels.load.strict);
-    warnOfOpenLines(built.open_lines, options.voxels.load.strict);
+    warnOfOpenSurfaces(built.open, options.voxels.load.strict);
 
     run.progress.begin("writing");
     writeZvo(built.tree, [&run](std::span<const std::byte> bytes) { run.output.write(bytes); });

@@ -40,9 +40,10 @@ enum
 typedef uint32_t ZvoFill;
 enum
 {
-    ZVO_FILL_NONE = 0,  ///< no voxel: the surface is all there is
-    ZVO_FILL_SOLID = 1, ///< those whose winding number is not 0
-    ZVO_FILL_PARITY = 2 ///< those whose winding number is odd
+    ZVO_FILL_NONE = 0,   ///< no voxel: the surface is all there is
+    ZVO_FILL_SOLID = 1,  ///< those whose winding number is not 0
+    ZVO_FILL_PARITY = 2, ///< those whose winding number is odd
+    ZVO_FILL_ROBUST = 3  ///< as solid, by what most rays and neighbours say: for surfaces that are not closed
 };
 
 /// What one tree is made of others by (docs/algebra.md).
@@ -199,6 +200,7 @@ enum class Fill : ZvoFill
     None = ZVO_FILL_NONE,
     Solid = ZVO_FILL_SOLID,
     Parity = ZVO_FILL_PARITY,
+    Robust = ZVO_FILL_ROBUST,
 };
 
 enum class TreeOperation : ZvoTreeOperation

@@ -30,7 +30,7 @@ void main()
     uint number = threadIndex() / kBrickLanes;
     bool is_brick = number < params.brick_count;
     uint brick = params.order.data[min(number, params.brick_count - 1u)];
-    if (kFillPlanes != 0u && brick == kNoRange)
+    if (kFillWords != 0u && brick == kNoRange)
     {
         is_brick = false;
         brick = 0u;
@@ -62,9 +62,9 @@ void main()
         uint middle = voxel + bitCount(mask.x);
         uint node = childIndex(parent, first_leaf + leaf);
         params.nodes.data[node] = Node(mask.x, voxel, mask.y, middle);
-        if (kFillPlanes != 0u)
+        if (kFillWords != 0u)
             params.occupied.data[node - params.first_leaf] =
-                mask | INSIDE(brick * (2u * kFillPlanes * kBrickLeaves) + first_leaf + leaf);
+                mask | INSIDE(brick * (kFillWords / 2u) + first_leaf + leaf);
         if (kMixed)
             params.mixed.data[node - params.first_leaf] = MixedVoxels(mixed.x, mixed.y, sums, 0u);
         voxel = middle + bitCount(mask.y);

@@ -17,6 +17,9 @@ const uint kBrickVoxels = 4096u;
 const uint kLeafMaskWords = 128u; // words of the masks of a brick's leaves
 const uint kFillLanes = 8u;       // threads of voxelize/fill that share a column of bricks: each takes 32 of its lines
 const uint kFillPlanesMax = 25u;  // planes of crossings, so that counts of them have 32 bits
+const uint kFillAxes = 3u;        // along which lines go for kFillRobust: y, z and x; for others only y
+const uint kFacesWords = 4u;      // with kFillRobust, behind a brick's crossings: what voxelize/fill_vote gets
+const uint kFillRounds = 4u;      // in which voxels and their neighbours in a brick vote
 const uint kItemColumns = 16u;    // columns of an item
 
 // ItemVoxels::info until the voxels are known: the number of a tile of 4x4 columns, and what is added
@@ -63,6 +66,13 @@ struct SurfaceSetup
     uvec3 zero;    // to whole texels of four words
 };
 GPU_BUFFER(SurfaceSetup, 16);
+
+/// The words of a brick's crossings, with that many planes of them each way: of kFillAxes axes where it is robust.
+GPU_FUNCTION uint fillWords(uint planes, bool robust)
+{
+    uint axis_words = 2u * planes * kLeafMaskWords;
+    return robust && planes != 0u ? kFillAxes * axis_words + kFacesWords : axis_words;
+}
 
 /// Up to kItemColumns columns of a triangle in a brick: of a small triangle, all that have voxels there; of a large
 /// one, one of the 4x4 tiles of 4x4 columns of the brick.
@@ -129,15 +139,18 @@ struct BinCounters
     uint voxel_carry;
     uint mixed_count;        // mixed voxels
     uint crossings_exceeded; // 1: more crossings in a voxel, or above one, than planes count
-    uint open_lines;         // vertical lines through voxels' centres that are inside below all triangles
+    uint open_lines;         // lines of voxels' centres that are inside behind all triangles
     uint filled_lo;          // voxels that are inside and not on the surface, in bricks
     uint filled_hi;
+    uint undecided_lo; // voxels in bricks of which rays and neighbours say both
+    uint undecided_hi;
     uint arrived;         // threads of the running dispatch (lib/arrivals.glsl); 0 in between
     DispatchArgs large;   // of voxelize/bin_large
     DispatchArgs known;   // of voxelize/cover for items whose voxels are known
     DispatchArgs cover;   // for the others
     DispatchArgs collect; // of voxelize/collect_bricks
     DispatchArgs fill;    // of voxelize/fill
+    DispatchArgs vote;    // of voxelize/fill_vote
     DispatchArgs leaves;  // of kBrickLanes threads for each listed brick, and one workgroup at least
 };
 GPU_BUFFER(BinCounters, 4);
@@ -205,6 +218,7 @@ struct ListBricksParams // push constants of voxelize/list_bricks; counts of oth
     uint setup_capacity;
     uint item_capacity;
     uint large_capacity;
+    uint fill_lanes; // threads of voxelize/fill a brick
 };
 #define VOXELIZE_LIST_BRICKS_CONSTANTS(CONSTANT) CONSTANT(0, uint, brick_lanes, kBrickLanes, 2u)
 GPU_KERNEL(voxelize, list_bricks, ListBricks, ListBricksParams, VOXELIZE_LIST_BRICKS_CONSTANTS)
@@ -219,8 +233,8 @@ struct CoverParams // push constants of voxelize/cover: a thread an item
     GPU_PTR(ItemVoxels) voxels;           // [item_capacity], with conservative coverage twice as many
     GPU_PTR(uint) masks;                  // kLeafMaskWords a range, of leaves; with kMixed as many, of mixed voxels
     GPU_PTR(uint)
-    crossings;                     // kLeafMaskWords a plane, 2 kFillPlanes planes a range: bits of the counts of
-                                   // triangles that face up, from the lowest on, then of those that face down
+    crossings; // fillWords() a range: kLeafMaskWords a plane, 2 kFillPlanes planes an axis: bits of the counts of
+               // triangles that face up, from the lowest on, then of those that face down
     GPU_PTR(BinCounters) counters; // [1]
     uint window;
 };
@@ -231,7 +245,8 @@ struct CoverParams // push constants of voxelize/cover: a thread an item
     CONSTANT(3, MaterialClass, material_class, kMaterialClass, kClassPlain)                                            \
     CONSTANT(4, Coverage, coverage, kCoverage, kCoverageConservative)                                                  \
     CONSTANT(5, bool, emits, kEmits, false)                                                                            \
-    CONSTANT(6, uint, fill_planes, kFillPlanes, 0u) /* 0: nothing is filled */
+    CONSTANT(6, uint, fill_planes, kFillPlanes, 0u) /* 0: nothing is filled */                                         \
+    CONSTANT(7, bool, robust, kRobust, false)       /* along kFillAxes axes */
 GPU_KERNEL(voxelize, cover, Cover, CoverParams, VOXELIZE_COVER_CONSTANTS)
 
 struct FillColumnsParams // push constants of voxelize/fill_columns: a thread a brick
@@ -242,14 +257,18 @@ struct FillColumnsParams // push constants of voxelize/fill_columns: a thread a 
     uint window;
     uint brick_mask;
 };
-#define VOXELIZE_FILL_COLUMNS_CONSTANTS(CONSTANT) CONSTANT(0, bool, wide_keys, kWideKeys, false)
+#define VOXELIZE_FILL_COLUMNS_CONSTANTS(CONSTANT)                                                                      \
+    CONSTANT(0, bool, wide_keys, kWideKeys, false)                                                                     \
+    CONSTANT(1, bool, robust, kRobust, false)
 GPU_KERNEL(voxelize, fill_columns, FillColumns, FillColumnsParams, VOXELIZE_FILL_COLUMNS_CONSTANTS)
 
-struct FillParams // push constants of voxelize/fill: kFillLanes threads a brick
+struct FillParams // push constants of voxelize/fill: kFillLanes threads a brick, and axis
 {
     GPU_PTR(BrickEntry) bricks;       // [brick_mask + 1] get the open bricks
     GPU_CONST_PTR(BrickRange) ranges; // [range_capacity]
-    GPU_PTR(uint) crossings;       // as in CoverParams; the first plane of a range becomes the masks of what is inside
+    GPU_PTR(uint)
+    crossings;                     // as in CoverParams; the first plane of a range becomes the masks of what is inside;
+                                   // of kFillRobust, the first planes of each axis and way what rays that way say
     GPU_PTR(BinCounters) counters; // [1]
     uint window;
     uint brick_mask;
@@ -259,6 +278,22 @@ struct FillParams // push constants of voxelize/fill: kFillLanes threads a brick
     CONSTANT(1, uint, fill_planes, kFillPlanes, 1u)                                                                    \
     CONSTANT(2, Fill, fill, kFill, kFillSolid)
 GPU_KERNEL(voxelize, fill, FillVoxels, FillParams, VOXELIZE_FILL_CONSTANTS)
+
+struct FillVoteParams // push constants of voxelize/fill_vote: a workgroup of kBrickLeaves threads a brick
+{
+    GPU_PTR(BrickEntry) bricks;       // [brick_mask + 1] get the open bricks
+    GPU_CONST_PTR(BrickRange) ranges; // [range_capacity]
+    GPU_CONST_PTR(uint) masks;        // as in CoverParams
+    GPU_PTR(uint) crossings;       // as voxelize/fill leaves them; the first plane becomes the masks of what is inside
+    GPU_PTR(BinCounters) counters; // [1]
+    uint window;
+    uint brick_mask;
+};
+#define VOXELIZE_FILL_VOTE_CONSTANTS(CONSTANT)                                                                         \
+    CONSTANT(0, bool, wide_keys, kWideKeys, false)                                                                     \
+    CONSTANT(1, bool, mixed, kMixed, false)                                                                            \
+    CONSTANT(2, uint, fill_planes, kFillPlanes, 1u)
+GPU_KERNEL(voxelize, fill_vote, FillVote, FillVoteParams, VOXELIZE_FILL_VOTE_CONSTANTS)
 
 struct FillNodesParams // push constants of voxelize/fill_nodes: a thread a node above bricks
 {
@@ -270,7 +305,9 @@ struct FillNodesParams // push constants of voxelize/fill_nodes: a thread a node
     uint brick_mask;
     uint height; // of the nodes' level; of bricks: 0
 };
-#define VOXELIZE_FILL_NODES_CONSTANTS(CONSTANT) CONSTANT(0, bool, wide_keys, kWideKeys, false)
+#define VOXELIZE_FILL_NODES_CONSTANTS(CONSTANT)                                                                        \
+    CONSTANT(0, bool, wide_keys, kWideKeys, false)                                                                     \
+    CONSTANT(1, bool, robust, kRobust, false)
 GPU_KERNEL(voxelize, fill_nodes, FillNodes, FillNodesParams, VOXELIZE_FILL_NODES_CONSTANTS)
 
 struct CollectBricksParams // push constants of voxelize/collect_bricks: a thread a brick
@@ -290,7 +327,7 @@ struct CollectBricksParams // push constants of voxelize/collect_bricks: a threa
 #define VOXELIZE_COLLECT_BRICKS_CONSTANTS(CONSTANT)                                                                    \
     CONSTANT(0, bool, mixed, kMixed, false)                                                                            \
     CONSTANT(1, uint, brick_lanes, kBrickLanes, 2u) /* threads that share a brick */                                   \
-    CONSTANT(2, uint, fill_planes, kFillPlanes, 0u)
+    CONSTANT(2, uint, fill_words, kFillWords, 0u)   /* of a range's crossings; 0: nothing is filled */
 GPU_KERNEL(voxelize, collect_bricks, CollectBricks, CollectBricksParams, VOXELIZE_COLLECT_BRICKS_CONSTANTS)
 
 struct PlaceBricksParams // push constants of voxelize/place_bricks: a thread a brick with voxels
@@ -326,7 +363,7 @@ struct BrickLeavesParams // push constants of voxelize/brick_leaves: kBrickLanes
     GPU_CONST_PTR(uint) crossings;    // as voxelize/fill leaves them
     GPU_PTR(Node) nodes;              // [nodes of the octree] leaves have the masks of the surface
     GPU_PTR(MixedVoxels) mixed;       // [leaves] with kMixed
-    GPU_PTR(uvec2) occupied;          // [leaves] with kFillPlanes: the masks of surface and inside
+    GPU_PTR(uvec2) occupied;          // [leaves] with kFillWords: the masks of surface and inside
     uint first_leaf;                  // of nodes
     uint brick_count;
 };
@@ -334,7 +371,7 @@ struct BrickLeavesParams // push constants of voxelize/brick_leaves: kBrickLanes
     CONSTANT(0, bool, wide_keys, kWideKeys, false)                                                                     \
     CONSTANT(1, bool, mixed, kMixed, false)                                                                            \
     CONSTANT(2, uint, brick_lanes, kBrickLanes, 2u)                                                                    \
-    CONSTANT(3, uint, fill_planes, kFillPlanes, 0u)
+    CONSTANT(3, uint, fill_words, kFillWords, 0u)
 GPU_KERNEL(voxelize, brick_leaves, BrickLeaves, BrickLeavesParams, VOXELIZE_BRICK_LEAVES_CONSTANTS)
 
 struct AttributesParams // push constants of voxelize/attributes: a thread an item

@@ -29,7 +29,7 @@ shared uint s_leaves_lo[kBricksGroup];
 shared uint s_leaves_hi[kBricksGroup];
 shared uint s_voxels[kBricksGroup];
 shared uint s_mixed[kBricksGroup];
-shared uint s_filled[kFillPlanes != 0u ? kBricksGroup : 1u]; // voxels that are inside alone
+shared uint s_filled[kFillWords != 0u ? kBricksGroup : 1u]; // voxels that are inside alone
 
 uint bitCounts(uvec4 words)
 {
@@ -44,12 +44,12 @@ void countBrick(uint brick, uint slot)
     uint mixed = 0u;
     uint filled = 0u;
     uint first = brick * ((kMixed ? 2u : 1u) * kLeafMaskWords / 4u);
-    uint first_inside = brick * (2u * kFillPlanes * kLeafMaskWords / 4u);
+    uint first_inside = brick * (kFillWords / 4u);
     for (uint pair = gl_LocalInvocationIndex % kBrickLanes; pair < kBrickLeaves / 2u; pair += kBrickLanes)
     {
         uvec4 words = MASK_WORDS(first + pair);
         uvec4 occupied = words;
-        if (kFillPlanes != 0u)
+        if (kFillWords != 0u)
         {
             occupied |= INSIDE_WORDS(first_inside + pair);
             filled += bitCounts(occupied & ~words);
@@ -61,7 +61,7 @@ void countBrick(uint brick, uint slot)
         if (kMixed)
             mixed += bitCounts(MASK_WORDS(first + kLeafMaskWords / 4u + pair));
     }
-    if (kFillPlanes != 0u && filled != 0u)
+    if (kFillWords != 0u && filled != 0u)
         atomicAdd(s_filled[slot], filled);
     if ((leaves.x | leaves.y) != 0u)
     {
@@ -90,7 +90,7 @@ void main()
     s_leaves_hi[lane] = 0u;
     s_voxels[lane] = 0u;
     s_mixed[lane] = 0u;
-    if (kFillPlanes != 0u)
+    if (kFillWords != 0u)
         s_filled[lane] = 0u;
     barrier();
     for (uint slot = lane / kBrickLanes; slot < kBricksGroup; slot += kBricksGroup / kBrickLanes)
@@ -101,7 +101,7 @@ void main()
     uint entry = 0u;
     uvec2 leaves = uvec2(s_leaves_lo[lane], s_leaves_hi[lane]);
     uint voxels = s_voxels[lane];
-    uint filled = kFillPlanes != 0u ? s_filled[lane] : 0u;
+    uint filled = kFillWords != 0u ? s_filled[lane] : 0u;
     if (filled == kBrickVoxels)
     {
         leaves = uvec2(0u);
@@ -118,7 +118,7 @@ void main()
         uvec4(has_voxels ? 1u : 0u, bitCount(leaves.x) + bitCount(leaves.y), voxels, s_mixed[lane]));
     uint sums_before = subgroupExclusiveAdd(s_mixed[lane]);
     uint before = subgroupExclusiveAdd(has_voxels ? 1u : 0u);
-    uint total_filled = kFillPlanes != 0u ? subgroupAdd(filled) : 0u;
+    uint total_filled = kFillWords != 0u ? subgroupAdd(filled) : 0u;
     uvec2 first = uvec2(0u); // work item, sums
     if (subgroupElect() && total.x != 0u)
     {
@@ -128,7 +128,7 @@ void main()
         uint voxels_before = atomicAdd(params.counters.data[0].voxel_count, total.z);
         if (voxels_before + total.z < voxels_before)
             atomicAdd(params.counters.data[0].voxel_carry, 1u);
-        if (kFillPlanes != 0u)
+        if (kFillWords != 0u)
             addFilled(total_filled);
     }
     first = subgroupBroadcastFirst(first);

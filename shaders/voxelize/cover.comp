@@ -96,23 +96,37 @@ void setItem(BrickItem item, BrickEntry entry, Voxels voxels, bool tests)
     }
 }
 
-// Counts the crossings in the voxels of an item: digits are added from the lowest plane up.
+// Adds a crossing to the counts of a voxel: digits are added from the lowest plane up. first_word: of the planes of the
+// line's axis and way.
+void addCrossing(uint first_word, uint number)
+{
+    uint word = first_word + (number >> 5);
+    uint carry = 1u << (number & 31u);
+    for (uint plane = 0u; plane < kFillPlanes && carry != 0u; ++plane)
+        carry &= atomicXor(CROSSING_WORD(word + plane * kLeafMaskWords), carry);
+    if (carry != 0u)
+        atomicMax(params.counters.data[0].crossings_exceeded, 1u);
+}
+
+// Counts the crossings in the voxels of an item. Planes of lines along z and x have the voxels turned: their lines stand
+// there as those along y do.
 void addCrossings(BrickItem item, BrickEntry entry, Voxels voxels)
 {
     ivec3 brick = brickCorner(entry);
     TriangleSetup setup = loadSetup(item.triangle);
-    uint first_word = entry.mask_lo * (2u * kFillPlanes * kLeafMaskWords);
+    uint first_word = entry.mask_lo * fillWords(kFillPlanes, kRobust);
     while (hasVoxels(voxels))
     {
         uvec3 voxel = takeVoxel(voxels);
-        uint number = numberOf(voxel);
-        int sign = crossing(setup, brick + ivec3(voxel));
-        uint word = first_word + (number >> 5) + (sign < 0 ? kFillPlanes * kLeafMaskWords : 0u);
-        uint carry = sign != 0 ? 1u << (number & 31u) : 0u;
-        for (uint plane = 0u; plane < kFillPlanes && carry != 0u; ++plane)
-            carry &= atomicXor(CROSSING_WORD(word + plane * kLeafMaskWords), carry);
-        if (carry != 0u)
-            atomicMax(params.counters.data[0].crossings_exceeded, 1u);
+        uvec3 place = voxel;
+        [[unroll]] for (uint line = 0u; line < (kRobust ? kFillAxes : 1u); ++line)
+        {
+            int sign = crossing(setup, brick + ivec3(voxel), line);
+            uint planes = (2u * line + (sign < 0 ? 1u : 0u)) * kFillPlanes;
+            if (sign != 0)
+                addCrossing(first_word + planes * kLeafMaskWords, numberOf(place));
+            place = place.yzx;
+        }
     }
 }
 

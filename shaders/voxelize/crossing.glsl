@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Where triangles cross the vertical lines, along y, through the centres of voxels (docs/voxelization.md). A line is
+// Where triangles cross the lines along an axis through the centres of voxels (docs/voxelization.md). A line along y is
 // moved by e along x and by e^2 along z, e being smaller than any number: then it passes all edges and vertices, so that
-// of triangles that share one, as many are crossed as enclose the line.
+// of triangles that share one, as many are crossed as enclose the line. For lines along z and x, the axes are turned.
 //
 // Thin coverage covers every voxel in which a triangle crosses such a line: the crossing is on the major axis' line of
 // the voxel, too, or less than half a voxel from it, as the plane is steepest along the major axis. So the fragments of
@@ -38,11 +38,18 @@ int64_t halfVoxels(i64vec3 a, ivec3 b)
     return high.x + high.y + high.z + int64_t((low.x + low.y + low.z) >> log2);
 }
 
+// Axes of lines.
+const int kAlongW = 0;
+const int kAlongU = 1;
+const int kAlongV = 2;
+
 // 1 where the triangle crosses the line within the voxel and faces up, -1 where it faces down, 0 where it does not
-// cross it.
-int crossing(TriangleSetup setup, ivec3 voxel)
+// cross it. line: 0 along y, 1 along z, 2 along x.
+int crossing(TriangleSetup setup, ivec3 voxel, uint line)
 {
     uint axis = setup.flags & kSetupAxis;
+    int turn = int(line) + 1 - int(axis); // u, v and w follow each other as x, y and z do
+    int along = turn < 0 ? turn + 3 : turn > 2 ? turn - 3 : turn;
     ivec2 mirror = mirrorOf(setup);
     ivec3 place = permuted(voxel, axis);
     place.xy ^= mirror;
@@ -58,26 +65,27 @@ int crossing(TriangleSetup setup, ivec3 voxel)
     int64_t n_w = abs(product(edge_u.x, edge_v.y) - product(edge_v.x, edge_u.y));
 
     // From the voxel's centre to the plane, times n_w along w, times -rise_u along u and -rise_v along v.
-    int64_t reach = axis == 1u ? n_w : axis == 0u ? rise_u : rise_v; // y is w, u, v
+    int64_t reach = along == kAlongW ? n_w : along == kAlongU ? rise_u : rise_v;
     int64_t plane = halfVoxels(i64vec3(rise_u, rise_v, -n_w), ivec3(to_u.x, to_v.x, to_w.x));
-    bool in_top = axis == 1u && rise_u == 0l && rise_v == 0l && place.z + 1 == gridResolution(); // as topLayer() has it
+    bool in_top = along == kAlongW && rise_u == 0l && rise_v == 0l && place.z + 1 == gridResolution(); // as topLayer() has it
     if (plane < -reach || (in_top ? plane > reach : plane >= reach))
         return 0;
 
-    // The triangle along y: over (u, v), (w, v) and (u, w).
-    bool is_w = axis == 0u; // a is w
+    // The triangle along the line: over (u, v), (w, v) and (u, w).
+    bool is_w = along == kAlongU; // a is w
     ivec3 edges_a = is_w ? edge_w : edge_u;
     ivec3 to_a = is_w ? to_w : to_u;
-    ivec3 edges_b = axis == 2u ? edge_w : edge_v;
-    ivec3 to_b = axis == 2u ? to_w : to_v;
+    ivec3 edges_b = along == kAlongV ? edge_w : edge_v;
+    ivec3 to_b = along == kAlongV ? to_w : to_v;
     ivec2 unmirrored = 2 * mirror + 1; // 1, or -1 where mirrored
     int move_a = is_w ? 1 : unmirrored.x;
-    int move_b = axis == 2u ? 1 : unmirrored.y;
+    int move_b = along == kAlongV ? 1 : unmirrored.y;
     i64vec3 edge = product(edges_a, to_b) - product(edges_b, to_a);
-    if (!all(areInside(edge, edges_a, edges_b, move_a, move_b, axis != 1u)))
+    if (!all(areInside(edge, edges_a, edges_b, move_a, move_b, along != kAlongW)))
         return 0;
     bool w_is_positive = hasFlag(setup, kSetupExchanged) == (mirror.x != mirror.y); // of the normal
-    bool is_up = axis == 1u ? w_is_positive : w_is_positive == ((axis == 0u ? mirror.x : mirror.y) != 0);
+    int flip = along == kAlongU ? mirror.x : mirror.y;
+    bool is_up = along == kAlongW ? w_is_positive : w_is_positive == (flip != 0);
     return is_up ? 1 : -1;
 }
 

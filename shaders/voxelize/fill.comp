@@ -3,6 +3,9 @@
 // Finds the voxels that are inside: kFillLanes threads take a column of bricks from the top down, each 32 of its lines,
 // and add up the triangles that cross them, as binary digits of 32 lines at once. Bricks that are not listed change
 // nothing. A voxel with a crossing counts as its upper end: it is one of the surface in any case.
+//
+// With kFillRobust, columns stand along all axes, and a line is walked twice: the sum of all of its crossings tells in
+// the second walk what a ray from a voxel down has crossed, which of closed surfaces is the same as from there up.
 #extension GL_GOOGLE_include_directive : require
 #include "voxelize/bricks.h"
 
@@ -26,7 +29,15 @@ const uint kWindingBits = kFillPlanes + 7u; // 32 at most
 const uint kPlanePairs = kBrickLeaves / 2u; // of leaves, of a plane
 
 uint g_winding[kWindingBits]; // the winding numbers of 32 lines, binary digits from the lowest up; two's complement
+uint g_all[kWindingBits];     // with kFillRobust, behind all triangles
 uint g_exceeded = 0u;
+
+const bool kRobust = kFill == kFillRobust;
+
+uint rangeQuads() // of a range's crossings
+{
+    return fillWords(kFillPlanes, kRobust) / 4u;
+}
 
 // Words of a pair of leaves that stand side by side along x: of either z half, of either leaf. Of a layer they have
 // eight lines each, bits 0, 1, 4, 5, 8, 9, 12 and 13 from the layer's first bit on.
@@ -51,9 +62,18 @@ uvec4 wordsOf(uint lines, uint layer)
 uint insideLines()
 {
     uint any_digit = g_winding[0];
-    if (kFill == kFillSolid)
+    if (kFill != kFillParity)
         [[unroll]] for (uint k = 1u; k < kWindingBits; ++k)
             any_digit |= g_winding[k];
+    return any_digit;
+}
+
+// Those of which the ray down says that they are inside.
+uint insideBelow()
+{
+    uint any_digit = 0u;
+    [[unroll]] for (uint k = 0u; k < kWindingBits; ++k)
+        any_digit |= g_winding[k] ^ g_all[k];
     return any_digit;
 }
 
@@ -87,9 +107,9 @@ uint pairOf(uint lane, uint row)
     return leaf >> 1;
 }
 
-void fillBrick(uint number, uint lane)
+// first: of the range's planes. writes: the planes become masks of what is inside.
+void fillBrick(uint first, uint lane, bool writes)
 {
-    uint first = number * (2u * kFillPlanes * kPlanePairs);
     for (uint row = 4u; row-- > 0u;)
     {
         uint pair = first + pairOf(lane, row);
@@ -101,39 +121,75 @@ void fillBrick(uint number, uint lane)
             down[k] = CROSSINGS(pair + (kFillPlanes + k) * kPlanePairs);
         }
         uvec4 inside = uvec4(0u);
+        uvec4 inside_below = uvec4(0u);
         [[unroll]] for (uint i = 0u; i < 4u; ++i)
         {
             inside |= wordsOf(insideLines(), 3u - i);
+            if (kRobust)
+                inside_below |= wordsOf(insideBelow(), 3u - i);
             cross(up, down, 3u - i);
         }
-        CROSSINGS(pair) = inside;
+        if (writes)
+            CROSSINGS(pair) = inside;
+        if (kRobust && writes)
+            CROSSINGS(pair + kFillPlanes * kPlanePairs) = inside_below;
     }
+}
+
+// Tells the nodes below a brick whether they are inside.
+void leaveBrick(uint number, uvec3 column, int y)
+{
+    if (kRobust)
+    {
+        uint rays = bitCount(insideLines()) + bitCount(insideBelow());
+        if (rays != 0u)
+            atomicAdd(CROSSINGS((number + 1u) * rangeQuads() - kFacesWords / 4u)[column.z], rays);
+        return;
+    }
+    bool is_open = insideLines() != ~0u;
+    if (is_open && !setInColumn(column, kPartOpen, uint(y) >> kPartLog2, uint(y) & 63u))
+        atomicAdd(params.counters.data[0].overflow_count, 1u);
 }
 
 void main()
 {
-    uint number = threadIndex() / kFillLanes;
+    const uint lanes = kRobust ? kFillAxes * kFillLanes : kFillLanes;
+    uint number = threadIndex() / lanes;
     if (number >= params.counters.data[0].listed_count)
         return;
     uint lane = threadIndex() % kFillLanes;
-    uvec3 brick = brickCell(keyOf(loadBrick(params.ranges.data[number].entry)), brickLevel());
+    uint line = kRobust ? threadIndex() % lanes / kFillLanes : 0u;
+    uvec3 brick = turned(brickCell(keyOf(loadBrick(params.ranges.data[number].entry)), brickLevel()), line);
+    uvec3 column = uvec3(brick.xz, line);
     int y = int(brick.y);
-    if (brickFrom(brick.xz, y + 1) != kNoBrick)
+    if (brickFrom(column, y + 1) != kNoBrick)
         return; // not the highest of its column
     [[unroll]] for (uint k = 0u; k < kWindingBits; ++k)
         g_winding[k] = 0u;
+    uint highest = number;
+    bool writes = !kRobust; // in the second walk
     while (y != kNoBrick)
     {
-        fillBrick(number, lane);
-        bool is_open = insideLines() != ~0u;
-        if (is_open && !setInColumn(brick.xz, kPartOpen, uint(y) >> kPartLog2, uint(y) & 63u))
-            atomicAdd(params.counters.data[0].overflow_count, 1u);
-        y = brickTo(brick.xz, y - 1);
+        fillBrick(number * rangeQuads() + line * (2u * kFillPlanes * kPlanePairs), lane, writes);
+        if (writes)
+            leaveBrick(number, column, y);
+        y = brickTo(column, y - 1);
         if (y != kNoBrick)
         {
             BrickEntry next;
-            brickFind(brickKey(uvec3(brick.x, uint(y), brick.z), brickLevel()), next);
+            brickFind(brickKey(turnedBack(uvec3(brick.x, uint(y), brick.z), line), brickLevel()), next);
             number = next.mask_lo;
+        }
+        else if (!writes)
+        {
+            [[unroll]] for (uint k = 0u; k < kWindingBits; ++k)
+            {
+                g_all[k] = g_winding[k];
+                g_winding[k] = 0u;
+            }
+            writes = true;
+            y = int(brick.y);
+            number = highest;
         }
     }
     if (g_exceeded != 0u)

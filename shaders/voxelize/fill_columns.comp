@@ -19,9 +19,14 @@ void main()
     if (number >= params.counters.data[0].listed_count)
         return;
     uvec3 brick = brickCell(keyOf(loadBrick(params.ranges.data[number].entry)), brickLevel());
-    uint part = brick.y >> kPartLog2;
-    bool entered = setInColumn(brick.xz, kPartBricks, part, brick.y & 63u) &&
-                   setInColumn(brick.xz, kColumnParts, part >> kPartLog2, part & 63u);
-    if (!entered)
-        atomicAdd(params.counters.data[0].overflow_count, 1u);
+    for (uint line = 0u; line < (kRobust ? kFillAxes : 1u); ++line)
+    {
+        uint part = brick.y >> kPartLog2;
+        uvec3 column = uvec3(brick.xz, line);
+        bool entered = setInColumn(column, kPartBricks, part, brick.y & 63u) &&
+                       setInColumn(column, kColumnParts, part >> kPartLog2, part & 63u);
+        if (!entered)
+            atomicAdd(params.counters.data[0].overflow_count, 1u);
+        brick = brick.yzx;
+    }
 }

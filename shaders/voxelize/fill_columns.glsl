@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Vertical columns of bricks: which bricks of a column triangles may touch, in the brick table. A column has parts of 64
-// bricks, whose entries have a bit for each, a second entry for those bricks that are open below: not all of their
-// lines are inside there; and an entry for each 64 parts.
+// Columns of bricks: which bricks of a column triangles may touch, in the brick table. A column has parts of 64 bricks,
+// whose entries have a bit for each, a second entry for those bricks that are open below: not all of their lines are
+// inside there, or with kFillRobust not most rays; and an entry for each 64 parts. Columns stand along y. For lines along
+// z (1) and x (2) coordinates are turned, and a column is x, z and the lines' number.
 // Needs what lib/bricks.glsl and voxelize/window.glsl need.
 #ifndef ZVO_SHADERS_VOXELIZE_FILL_COLUMNS_GLSL
 #define ZVO_SHADERS_VOXELIZE_FILL_COLUMNS_GLSL
@@ -14,23 +15,39 @@
 const uint kPartBricks = 0u;
 const uint kPartOpen = 1u;
 const uint kColumnParts = 2u;
+const uint kPartHalf = 3u; // of bricks open below, those of which half of the rays say so
 
 const uint kPartLog2 = 6u;
 const uint kNarrowColumnBits = 8u; // of a brick's coordinate, as grids with narrow keys have at most 2^8 bricks an edge
 const uint kWideColumnBits = 13u;
+const uint kColumnLineShift = 24u;
 const uint kColumnTag = 1u << 31;     // no narrow key of a node has it
 const uint kWideColumnTag = 1u << 30; // nor the second word of a wide one
 const int kNoBrick = -1;
 
-// The key of an entry of column (x, z).
-uvec2 columnKey(uvec2 column, uint kind, uint part)
+// Turns coordinates so that the lines go along y.
+uvec3 turned(uvec3 place, uint line)
 {
-    if (!kWideKeys)
-        return uvec2(kColumnTag | (kind << 28) | (part << 16) | (column.y << kNarrowColumnBits) | column.x, 0u);
-    return uvec2((column.y << kWideColumnBits) | column.x, kWideColumnTag | (kind << 16) | part) | kBrickKeyTag;
+    return line == 0u ? place : line == 1u ? place.yzx : place.zxy;
 }
 
-uvec2 columnMask(uvec2 column, uint kind, uint part)
+uvec3 turnedBack(uvec3 place, uint line)
+{
+    return turned(place, line == 0u ? 0u : 3u - line);
+}
+
+// The key of an entry of a column.
+uvec2 columnKey(uvec3 column, uint kind, uint part)
+{
+    uint lines = column.z << kColumnLineShift;
+    if (!kWideKeys)
+        return uvec2(
+            kColumnTag | (kind << 28) | lines | (part << 16) | (column.y << kNarrowColumnBits) | column.x, 0u);
+    return uvec2((column.y << kWideColumnBits) | column.x, kWideColumnTag | lines | (kind << 16) | part) |
+           kBrickKeyTag;
+}
+
+uvec2 columnMask(uvec3 column, uint kind, uint part)
 {
     BrickEntry brick;
     bool found = brickFind(columnKey(column, kind, part), brick) != kNoEntry;
@@ -38,7 +55,7 @@ uvec2 columnMask(uvec2 column, uint kind, uint part)
 }
 
 // Sets a bit of an entry. Returns false if the table is full.
-bool setInColumn(uvec2 column, uint kind, uint part, uint bit)
+bool setInColumn(uvec3 column, uint kind, uint part, uint bit)
 {
     bool claimed;
     uint entry = brickFindOrInsert(columnKey(column, kind, part), claimed);
@@ -68,7 +85,7 @@ int inPart(int part, int bit)
 }
 
 // The lowest brick of a column from y on, or kNoBrick.
-int brickFrom(uvec2 column, int y)
+int brickFrom(uvec3 column, int y)
 {
     int part = y >> kPartLog2;
     int found = inPart(part, lowestFrom(columnMask(column, kPartBricks, uint(part)), y & 63));
@@ -84,7 +101,7 @@ int brickFrom(uvec2 column, int y)
 }
 
 // The highest brick of a column up to y, or kNoBrick. y: from -1.
-int brickTo(uvec2 column, int y)
+int brickTo(uvec3 column, int y)
 {
     int part = y >> kPartLog2;
     int found = kNoBrick;

@@ -1,7 +1,7 @@
 #version 460
 // SPDX-License-Identifier: MIT
 // Finds the children of nodes above bricks that no triangle may touch and that are inside: all of their lines are inside
-// below the next brick above them.
+// below the next brick above them, or with kFillRobust most rays along most axes say so.
 #extension GL_GOOGLE_include_directive : require
 #include "voxelize/bricks.h"
 
@@ -15,15 +15,25 @@ layout(local_size_x = kNodesGroup) in;
 #include "lib/morton.glsl"
 #include "voxelize/fill_columns.glsl"
 
-// Whether the cells from brick y of a column on down to the next brick are inside.
-bool isInsideAt(uvec2 column, int y)
+bool hasBit(uvec3 column, uint kind, int y)
 {
-    int above = brickFrom(column, y);
-    if (above == kNoBrick)
-        return false;
-    uvec2 open = columnMask(column, kPartOpen, uint(above) >> kPartLog2);
-    uint bit = uint(above) & 63u;
-    return (((bit < 32u ? open.x : open.y) >> (bit & 31u)) & 1u) == 0u;
+    uvec2 mask = columnMask(column, kind, uint(y) >> kPartLog2);
+    uint bit = uint(y) & 63u;
+    return (((bit < 32u ? mask.x : mask.y) >> (bit & 31u)) & 1u) != 0u;
+}
+
+// 1 if the cells from brick `low` on down to the next brick are inside, as lines along an axis say, -1 if they are
+// outside, 0 if half of the rays say so.
+int sideAt(uvec3 low, uint line)
+{
+    uvec3 brick = turned(low, line);
+    uvec3 column = uvec3(brick.xz, line);
+    int above = brickFrom(column, int(brick.y));
+    bool is_open = above == kNoBrick || hasBit(column, kPartOpen, above);
+    // Above all bricks it is as below all of them the other way around.
+    int asked = kRobust && above == kNoBrick ? brickFrom(column, 0) : above;
+    bool is_half = kRobust && asked != kNoBrick && hasBit(column, kPartHalf, asked);
+    return is_half ? 0 : is_open ? -1 : 1;
 }
 
 void main()
@@ -41,8 +51,9 @@ void main()
     uvec3 first_brick = uvec3(window_low >> int(kBrickLog2));
     uvec3 last_brick = uvec3(window_high >> int(kBrickLog2));
     uvec2 full = uvec2(0u);
-    bool is_inside = false;
+    int side = 0;
     bool is_known = false; // of the child above
+    uint undecided = 0u;
     for (uint i = 0u; i < kBrickLeaves; ++i)
     {
         uvec3 place = uvec3((i >> 2) & 3u, 3u - (i & 3u), i >> 4);
@@ -54,13 +65,21 @@ void main()
         is_known = is_known && (i & 3u) != 0u;
         if (!has_child && in_window && !is_known)
         {
-            is_inside = isInsideAt(low.xz, int(low.y));
+            side = sideAt(low, 0u);
             is_known = true;
         }
         is_known = is_known && !has_child;
-        if (!has_child && in_window && is_inside)
+        int sides = side;
+        if (kRobust && !has_child && in_window)
+        {
+            sides += sideAt(low, 1u) + sideAt(low, 2u);
+            undecided += sides == 0 ? 1u : 0u;
+        }
+        if (!has_child && in_window && sides > 0)
             full |= cell < 32u ? uvec2(1u << cell, 0u) : uvec2(0u, 1u << (cell & 31u));
     }
+    if (undecided != 0u)
+        atomicAdd(params.counters.data[0].undecided[params.height - 1u], undecided);
     if ((full.x | full.y) == 0u)
         return;
     atomicOr(BRICK_WORD(entry, kMaskWord), full.x);

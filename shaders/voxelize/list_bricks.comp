@@ -74,7 +74,8 @@ void main()
         params.counters.data[0].cover = itemGroups(items - known_items);
         params.counters.data[0].collect = foldedArgs((listed + kBricksGroup - 1u) / kBricksGroup, params.max_groups_x);
         params.counters.data[0].fill = foldedArgs(
-            (listed * kFillLanes + kBricksGroup - 1u) / kBricksGroup, params.max_groups_x);
+            (listed * params.fill_lanes + kBricksGroup - 1u) / kBricksGroup, params.max_groups_x);
+        params.counters.data[0].vote = foldedArgs(listed, params.max_groups_x);
         params.counters.data[0].leaves = foldedArgs(
             max((listed * kBrickLanes + kBricksGroup - 1u) / kBricksGroup, 1u), params.max_groups_x);
         atomicExchange(params.counters.data[0].arrived, 0u);

@@ -37,6 +37,7 @@ const uint kCoverageThin = 1u;
 const uint kFillNone = 0u;
 const uint kFillSolid = 1u;  // it is not 0
 const uint kFillParity = 2u; // it is odd
+const uint kFillRobust = 3u; // it is not 0 along most of six rays, and of what neighbours say
 
 // Specialization constant mode: what is done with a fragment.
 const uint kModeCoverage = 0u;   // sets the voxel's bit

@@ -37,7 +37,7 @@ StaticPart makeStaticPart(vk::HeadlessDevice& device, Scene scene, const Grid& g
     part.info.node_count = part.tree.node_count;
     part.info.geometry_bytes = part.tree.geometryBytes();
     part.info.attribute_bytes = part.tree.attributeBytes();
-    part.info.open_lines = built.open_lines;
+    part.info.open = built.open;
     part.info.dropped = std::move(built.dropped);
     part.info.passes = std::move(built.passes);
     return part;

@@ -34,7 +34,7 @@ struct StaticInfo
 {
     std::uint64_t triangle_count = 0;
     std::uint64_t voxel_count = 0;
-    std::uint32_t open_lines = 0; // as BuildResult has them
+    OpenSurfaces open = {};
     std::uint64_t node_count = 0;
     std::uint64_t geometry_bytes = 0; // of nodes; for a DAG, also of lists
     std::uint64_t attribute_bytes = 0;

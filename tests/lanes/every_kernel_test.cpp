@@ -246,9 +246,12 @@ void buildDark(const Grid& grid, Coverage coverage)
     }
     if (grid.nodeLevels() > 2)
     {
-        const BuildResult filled = buildOctree(device(), dark, grid, {.coverage = coverage, .fill = Fill::Solid});
-        noteKernels(filled.passes);
-        EXPECT_GT(filled.octree.interior_count, 0U);
+        for (const Fill fill : {Fill::Solid, Fill::Robust})
+        {
+            const BuildResult filled = buildOctree(device(), dark, grid, {.coverage = coverage, .fill = fill});
+            noteKernels(filled.passes);
+            EXPECT_GT(filled.octree.interior_count, 0U);
+        }
         const DistanceResult near = findDistances(device(), dark, grid, {.band = 2});
         noteKernels(near.passes);
         EXPECT_GT(near.distances.leaf_count, 0U);

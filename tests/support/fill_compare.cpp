@@ -3,13 +3,16 @@
 
 #include "core/base/morton.h"
 #include "core/tree/tree_data.h"
+#include "oracle/robust_fill.h"
 #include "oracle/snap.h"
 #include "oracle/winding.h"
 #include "runtime/trees.h"
 #include "support/same_bytes.h"
 #include "support/scenes.h"
 
+#include <algorithm>
 #include <array>
+#include <cstddef>
 #include <vector>
 
 namespace zvo::test
@@ -32,31 +35,62 @@ std::vector<oracle::Triangle> latticeTriangles(const Scene& scene, const Grid& g
     return triangles;
 }
 
+namespace
+{
+
+// The number of a voxel in a grid of resolution^3, x fastest.
+std::size_t numberOfCode(std::uint64_t code, std::size_t resolution)
+{
+    const glm::uvec3 cell = cellOfCode(code);
+    return cell.x + resolution * (cell.y + resolution * cell.z);
+}
+
+} // namespace
+
 FillComparison compareFill(vk::HeadlessDevice& device, const Scene& scene, const Grid& grid, Coverage coverage,
                            Fill fill)
 {
     FillComparison found;
     const std::vector<oracle::Triangle> triangles = latticeTriangles(scene, grid);
     found.is_closed = oracle::isClosed(triangles);
-    if (!found.is_closed)
+    if (!found.is_closed && fill != Fill::Robust)
     {
         return found;
     }
-    const std::vector<std::int16_t> winding = oracle::windingNumbers(triangles, grid.resolution());
     const GpuScene uploaded = uploadScene(device, scene, true);
     const BuildResult surface = buildOctree(device, uploaded, grid, {.coverage = coverage});
     const BuildResult filled = buildOctree(device, uploaded, grid, {.coverage = coverage, .fill = fill});
     const TreeData tree = downloadTree(device, filled.octree);
+    const std::vector<std::uint64_t> surface_codes = voxelCodes(device, surface.octree);
     std::vector<std::uint64_t> on_surface;
-    std::vector<bool> occupied(winding.size());
     const std::size_t resolution = grid.resolution();
-    const auto numberOf = [&](std::uint64_t code)
+    std::vector<bool> occupied(resolution * resolution * resolution);
+    const auto numberOf = [&](std::uint64_t code) { return numberOfCode(code, resolution); };
+    std::vector<bool> inside(occupied.size());
+    if (found.is_closed)
     {
-        const glm::uvec3 cell = cellOfCode(code);
-        return cell.x + resolution * (cell.y + resolution * cell.z);
-    };
-    const auto isInside = [&](std::size_t number)
-    { return fill == Fill::Parity ? winding[number] % 2 != 0 : winding[number] != 0; };
+        const std::vector<std::int16_t> winding = oracle::windingNumbers(triangles, grid.resolution());
+        std::transform(winding.begin(), winding.end(), inside.begin(),
+                       [fill](std::int16_t number) { return fill == Fill::Parity ? number % 2 != 0 : number != 0; });
+    }
+    else
+    {
+        std::vector<bool> is_surface(occupied.size());
+        for (const std::uint64_t code : surface_codes)
+        {
+            is_surface[numberOf(code)] = true;
+        }
+        const std::vector<std::int8_t> sides = oracle::robustSides(triangles, is_surface, grid.resolution());
+        std::transform(sides.begin(), sides.end(), inside.begin(), [](std::int8_t side) { return side > 0; });
+        for (std::size_t number = 0; number < sides.size(); ++number)
+        {
+            found.undecided += sides[number] == 0 && !is_surface[number] ? 1 : 0;
+        }
+    }
+    if (fill == Fill::Robust)
+    {
+        found.wrong += filled.open.undecided == found.undecided ? 0 : 1;
+    }
     forEachCell(tree,
                 [&](std::uint64_t code, bool is_surface)
                 {
@@ -67,16 +101,44 @@ FillComparison compareFill(vk::HeadlessDevice& device, const Scene& scene, const
                         return;
                     }
                     ++found.interior;
-                    found.wrong += isInside(numberOf(code)) ? 0 : 1;
+                    found.wrong += inside[numberOf(code)] ? 0 : 1;
                 });
-    for (std::size_t number = 0; number < winding.size(); ++number)
+    for (std::size_t number = 0; number < inside.size(); ++number)
     {
-        found.wrong += isInside(number) && !occupied[number] ? 1 : 0;
+        found.wrong += inside[number] && !occupied[number] ? 1 : 0;
     }
     found.wrong += filled.octree.interior_count == found.interior ? 0 : 1;
-    found.same_surface = on_surface == voxelCodes(device, surface.octree) &&
+    found.same_surface = on_surface == surface_codes &&
                          sameBytes(tree.voxel_attributes, downloadTree(device, surface.octree).voxel_attributes);
     return found;
+}
+
+double wrongOfHoles(vk::HeadlessDevice& device, const Scene& closed, const Scene& with_holes, const Grid& grid,
+                    Fill fill)
+{
+    const std::vector<std::int16_t> winding = oracle::windingNumbers(latticeTriangles(closed, grid), grid.resolution());
+    const GpuScene uploaded = uploadScene(device, with_holes, false);
+    const BuildResult filled = buildOctree(device, uploaded, grid, {.attributes = false, .fill = fill});
+    std::vector<bool> is_wrong(winding.size());
+    std::transform(winding.begin(), winding.end(), is_wrong.begin(), [](std::int16_t number) { return number != 0; });
+    const auto inside_count = static_cast<double>(std::ranges::count(is_wrong, true));
+    forEachCell(downloadTree(device, filled.octree),
+                [&](std::uint64_t code, bool is_surface)
+                {
+                    const std::size_t number = numberOfCode(code, grid.resolution());
+                    is_wrong[number] = !is_surface && !is_wrong[number];
+                });
+    return static_cast<double>(std::ranges::count(is_wrong, true)) / inside_count;
+}
+
+Scene withHoles(Scene scene, std::mt19937& random, double share)
+{
+    std::bernoulli_distribution is_lost(share);
+    for (Primitive& primitive : scene.primitives)
+    {
+        std::erase_if(primitive.triangles, [&](const glm::uvec3&) { return is_lost(random); });
+    }
+    return scene;
 }
 
 Scene tetrahedra(std::mt19937& random, const Grid& grid)

@@ -16,7 +16,8 @@ constexpr std::uint32_t kDepthMin = 5;
 constexpr std::uint32_t kDepthMax = 12;
 constexpr std::array<const char*, 2> kStructureNames = {"octree", "DAG"};
 constexpr std::array<const char*, 2> kCoverageNames = {"thin", "conservative"};
-constexpr std::array<const char*, 3> kFillNames = {"nothing", "solid", "parity (even-odd)"}; // by Fill
+constexpr std::array<const char*, 4> kFillNames = {"nothing", "solid", "parity (even-odd)",
+                                                   "robust (holes)"}; // by Fill
 
 // 0 is none, as a scene file's own grid is used then.
 void setMargin(cli::VoxelOptions& options, std::uint32_t margin)

@@ -104,7 +104,7 @@ std::unique_ptr<World> World::make(vk::HeadlessDevice& device, const WorldOption
             const StaticInfo& fixed = world->scene.info().fixed;
             cli::warnOfDropped(fixed.voxel_count, fixed.dropped, counts, options.voxels.load.strict);
         }
-        cli::warnOfOpenLines(world->scene.info().fixed.open_lines, options.voxels.load.strict);
+        cli::warnOfOpenSurfaces(world->scene.info().fixed.open, options.voxels.load.strict);
     }
     else if (!files.empty())
     {

@@ -73,12 +73,12 @@ void numberLevel(vk::FrameGraph& graph, vk::BufferOf<gpu::BrickEntry>& table, Oc
 }
 
 gpu::voxelize::BrickLeaves brickLeaves(const vk::Device& device, const Grid& grid, const VoxelForm& form,
-                                       std::uint32_t fill_planes)
+                                       std::uint32_t fill_words)
 {
     return {.wide_keys = hasWideKeys(grid),
             .mixed = form.mixed,
             .brick_lanes = tunedValue(device, Tunable::BrickLanes),
-            .fill_planes = fill_planes};
+            .fill_words = fill_words};
 }
 
 // Numbers the voxels of bricks, and writes the nodes of leaves.
@@ -117,7 +117,7 @@ void numberLeaves(vk::FrameGraph& graph, VoxelizeBuffers& voxelize, OctreeBuildB
                                                                  .brick_count = brick_count});
     }
     const std::uint32_t lanes = tunedValue(graph.device(), Tunable::BrickLanes);
-    vk::Pass pass = graph.addPass(brickLeaves(graph.device(), octree.grid, voxelize.form, voxelize.fill_planes));
+    vk::Pass pass = graph.addPass(brickLeaves(graph.device(), octree.grid, voxelize.form, voxelize.fillWords()));
     pass.dispatch(std::uint64_t{brick_count} * lanes, {.bricks = pass.read(voxelize.table),
                                                        .ranges = pass.read(voxelize.ranges),
                                                        .order = pass.read(work.order),
@@ -163,7 +163,7 @@ void listNodes(vk::FrameGraph& graph, const GridTile& tile, VoxelizeBuffers& vox
         vk::Pass pass =
             graph.addPass(gpu::voxelize::CollectBricks{.mixed = voxelize.form.mixed,
                                                        .brick_lanes = tunedValue(graph.device(), Tunable::BrickLanes),
-                                                       .fill_planes = voxelize.fill_planes});
+                                                       .fill_words = voxelize.fillWords()});
         pass.dispatchIndirect(voxelize.counters, &gpu::BinCounters::collect,
                               {.bricks = pass.readWrite(voxelize.table),
                                .ranges = pass.readWrite(voxelize.ranges),
@@ -199,7 +199,8 @@ void listFullNodes(vk::FrameGraph& graph, const GridTile& tile, VoxelizeBuffers&
     const Grid& grid = tile.grid;
     for (std::uint32_t height = 1; voxelize.fill_planes != 0 && height + 1 < grid.nodeLevels(); ++height)
     {
-        vk::Pass pass = graph.addPass(gpu::voxelize::FillNodes{.wide_keys = hasWideKeys(grid)});
+        vk::Pass pass = graph.addPass(
+            gpu::voxelize::FillNodes{.wide_keys = hasWideKeys(grid), .robust = voxelize.form.fill == Fill::Robust});
         pass.dispatchIndirect(work.args, height,
                               {.bricks = pass.readWrite(voxelize.table),
                                .items = pass.read(work.items),
@@ -224,7 +225,7 @@ void numberNodes(vk::FrameGraph& graph, VoxelizeBuffers& voxelize, OctreeBuildBu
     kernels.get(gpu::octree::Assign{});
     kernels.get(gpu::voxelize::PlaceBricks{.wide_keys = wide});
     kernels.get(gpu::voxelize::BrickBases{});
-    kernels.get(brickLeaves(graph.device(), octree.grid, voxelize.form, voxelize.fill_planes));
+    kernels.get(brickLeaves(graph.device(), octree.grid, voxelize.form, voxelize.fillWords()));
     graph.fill(work.partials, 0);
     if (voxelize.fill_planes != 0)
     {

@@ -42,6 +42,17 @@ bool hasLargeTriangles(const GpuScene& scene, const Grid& grid)
     return scene.surface_area >= kVoxelsOfTriangle * voxel * voxel * static_cast<double>(scene.triangle_count);
 }
 
+// Voxels that a robust fill has left undecided, in bricks and as whole nodes.
+std::uint64_t undecidedVoxels(const BrickCounts& counts)
+{
+    std::uint64_t voxels = counts.bins.undecided_lo + (std::uint64_t{counts.bins.undecided_hi} << 32);
+    for (std::uint32_t height = 0; height < counts.listed.size(); ++height)
+    {
+        voxels += std::uint64_t{counts.nodes.undecided[height]} << (kCellBits * (height + 2)); // a brick: 2 levels
+    }
+    return voxels;
+}
+
 } // namespace
 
 double operationMs(std::span<const vk::PassTime> passes, std::string_view operation)
@@ -138,10 +149,14 @@ void OctreeBuilder::learnCoverage()
         throwUncountable("voxels");
     }
     m_result.dropped = droppedTriangles(bins);
-    m_result.open_lines = bins.open_lines;
+    m_result.open.lines = bins.open_lines;
     m_item_count = bins.item_count;
     m_mixed_count = bins.mixed_count;
     allocateNodes(m_device, counts, *m_bricks, m_result.octree);
+    if (m_form.fill == Fill::Robust)
+    {
+        m_result.open.undecided = undecidedVoxels(counts);
+    }
     if (m_result.octree.node_count == 0)
     {
         end();

@@ -39,12 +39,20 @@ struct BuildOptions
 /// buffers.
 double operationMs(std::span<const vk::PassTime> passes, std::string_view operation);
 
+/// How open the surfaces are that were filled.
+struct OpenSurfaces
+{
+    std::uint32_t lines = 0; // through voxels' centres, that are inside behind all triangles: vertical ones, of
+                             // Fill::Robust along each axis
+    std::optional<std::uint64_t> undecided; // of Fill::Robust: voxels left out that as much speaks for as against
+};
+
 /// An octree and how it came about.
 struct BuildResult
 {
     DeviceTree octree;
     std::map<std::string, std::uint64_t> dropped; // triangles left out, by reason; only reasons that occurred
-    std::uint32_t open_lines = 0;     // vertical lines of voxels that are inside below all triangles: the scene is open
+    OpenSurfaces open;
     std::vector<vk::PassTime> passes; // of the runs that succeeded
     VoxelizeCapacities capacities;    // those that sufficed
     std::uint32_t retry_count = 0;    // runs that were thrown away because something was too small

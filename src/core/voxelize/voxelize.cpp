@@ -19,6 +19,7 @@ static_assert(static_cast<gpu::uint>(Coverage::Conservative) == gpu::kCoverageCo
 static_assert(static_cast<gpu::uint>(Coverage::Thin) == gpu::kCoverageThin);
 static_assert(static_cast<gpu::uint>(Fill::Solid) == gpu::kFillSolid);
 static_assert(static_cast<gpu::uint>(Fill::Parity) == gpu::kFillParity);
+static_assert(static_cast<gpu::uint>(Fill::Robust) == gpu::kFillRobust);
 static_assert(Grid::kDepthMax < 1U << gpu::kWindowDepthBits);
 static_assert(GridTile::kTilesMax == 1U << gpu::kWindowIndexBits);
 static_assert(1U << (2 * (Grid::kDepthMax - gpu::kBrickLog2 - gpu::kBlockLog2Max)) <= gpu::kBlocksMax);
@@ -80,7 +81,13 @@ std::uint32_t planesOf(const VoxelForm& form, const VoxelizeCapacities& capaciti
 
 std::uint64_t crossingWordsOf(const VoxelForm& form, const VoxelizeCapacities& capacities)
 {
-    return capacities.bricks * 2 * planesOf(form, capacities) * gpu::kLeafMaskWords;
+    return capacities.bricks * gpu::fillWords(planesOf(form, capacities), form.fill == Fill::Robust);
+}
+
+// Threads of voxelize/fill a brick.
+std::uint32_t fillLanes(const VoxelForm& form)
+{
+    return gpu::kFillLanes * (form.fill == Fill::Robust ? gpu::kFillAxes : 1);
 }
 
 // Threads that share a block. In deep grids blocks may have 64^2 columns of bricks, for each of which a thread runs
@@ -169,7 +176,8 @@ void coverItems(vk::FrameGraph& graph, const VoxelizeJob& job, bool known, gpu::
                                                        .material_class = job.scene.uploaded().highestClass(),
                                                        .coverage = buffers.form.coverage,
                                                        .emits = buffers.form.emission,
-                                                       .fill_planes = buffers.fill_planes});
+                                                       .fill_planes = buffers.fill_planes,
+                                                       .robust = buffers.form.fill == Fill::Robust});
     readColorTables(pass, job.scene.uploaded());
     const gpu::Ptr<gpu::BinCounters> counters = buffers.fill_planes != 0
                                                     ? pass.accumulate(buffers.counters)
@@ -357,7 +365,8 @@ void listBricks(vk::FrameGraph& graph, VoxelizeBuffers& buffers, std::uint32_t b
                    .range_capacity = count32(buffers.ranges),
                    .setup_capacity = count32(buffers.setups),
                    .item_capacity = count32(buffers.items),
-                   .large_capacity = count32(buffers.large)});
+                   .large_capacity = count32(buffers.large),
+                   .fill_lanes = fillLanes(buffers.form)});
 }
 
 void coverBricks(vk::FrameGraph& graph, const VoxelizeJob& job)
@@ -377,9 +386,10 @@ void fillBricks(vk::FrameGraph& graph, const VoxelizeJob& job)
     }
     const bool wide = hasWideKeys(job.tile.grid);
     const std::uint32_t window = windowOf(job.tile);
+    const bool robust = buffers.form.fill == Fill::Robust;
     const std::uint64_t groups = divideUp(buffers.ranges.count(), gpu::kBricksGroup);
     {
-        vk::Pass pass = graph.addPass(gpu::voxelize::FillColumns{.wide_keys = wide});
+        vk::Pass pass = graph.addPass(gpu::voxelize::FillColumns{.wide_keys = wide, .robust = robust});
         pass.dispatchIndirect(buffers.counters, &gpu::BinCounters::collect,
                               {.bricks = pass.readWrite(buffers.table),
                                .ranges = pass.read(buffers.ranges),
@@ -388,16 +398,32 @@ void fillBricks(vk::FrameGraph& graph, const VoxelizeJob& job)
                                .brick_mask = count32(buffers.table) - 1},
                               groups);
     }
-    vk::Pass pass = graph.addPass(
-        gpu::voxelize::FillVoxels{.wide_keys = wide, .fill_planes = buffers.fill_planes, .fill = buffers.form.fill});
-    pass.dispatchIndirect(buffers.counters, &gpu::BinCounters::fill,
-                          {.bricks = pass.readWrite(buffers.table),
-                           .ranges = pass.read(buffers.ranges),
-                           .crossings = pass.readWrite(buffers.crossings),
-                           .counters = pass.readWrite(buffers.counters),
-                           .window = window,
-                           .brick_mask = count32(buffers.table) - 1},
-                          groups * gpu::kFillLanes);
+    {
+        vk::Pass pass = graph.addPass(gpu::voxelize::FillVoxels{
+            .wide_keys = wide, .fill_planes = buffers.fill_planes, .fill = buffers.form.fill});
+        pass.dispatchIndirect(buffers.counters, &gpu::BinCounters::fill,
+                              {.bricks = pass.readWrite(buffers.table),
+                               .ranges = pass.read(buffers.ranges),
+                               .crossings = pass.readWrite(buffers.crossings),
+                               .counters = pass.readWrite(buffers.counters),
+                               .window = window,
+                               .brick_mask = count32(buffers.table) - 1},
+                              groups * fillLanes(buffers.form));
+    }
+    if (robust)
+    {
+        vk::Pass pass = graph.addPass(gpu::voxelize::FillVote{
+            .wide_keys = wide, .mixed = buffers.form.mixed, .fill_planes = buffers.fill_planes});
+        pass.dispatchIndirect(buffers.counters, &gpu::BinCounters::vote,
+                              {.bricks = pass.readWrite(buffers.table),
+                               .ranges = pass.read(buffers.ranges),
+                               .masks = pass.read(buffers.masks),
+                               .crossings = pass.readWrite(buffers.crossings),
+                               .counters = pass.readWrite(buffers.counters),
+                               .window = window,
+                               .brick_mask = count32(buffers.table) - 1},
+                              buffers.ranges.count());
+    }
 }
 
 void voxelizeCoverage(vk::FrameGraph& graph, const VoxelizeJob& job)

@@ -70,7 +70,7 @@ struct VoxelizeCapacities
     std::uint64_t setups = 0; // of triangles that may have voxels
     std::uint64_t items = 0;
     std::uint64_t large = 0;       // blocks of large triangles
-    std::uint32_t fill_planes = 1; // binary digits of the triangles that cross a voxel's vertical line one way
+    std::uint32_t fill_planes = 1; // binary digits of the triangles that cross a voxel's line one way
 
     /// The most entries that the 32-bit numbers of the brick table allow.
     static constexpr std::uint64_t kTableMax = 1ULL << 31;
@@ -111,8 +111,11 @@ struct VoxelizeBuffers
     vk::BufferOf<gpu::uint> masks;           // gpu::kLeafMaskWords for each brick's leaves, and with form.mixed as many
                                              // for their mixed voxels
     std::uint32_t fill_planes = 0;           // of crossings; 0: nothing is filled
-    vk::BufferOf<gpu::uint> crossings;       // 2 * fill_planes * gpu::kLeafMaskWords for each brick
+    vk::BufferOf<gpu::uint> crossings;       // fillWords() for each brick
     vk::BufferOf<gpu::BinCounters> counters; // [1]
+
+    /// The words of a brick's crossings.
+    [[nodiscard]] std::uint32_t fillWords() const { return gpu::fillWords(fill_planes, form.fill == Fill::Robust); }
 };
 
 /// The triangles that a voxelization left out, by reason; only reasons that occurred.

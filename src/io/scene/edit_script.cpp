@@ -72,7 +72,7 @@ EditMesh readMesh(const JsonCursor& mesh, const std::filesystem::path& folder)
     result.transform = mesh.valueOr("place", readPlace, Place()).transform(result.up);
     if (const auto fill = mesh.find("fill"))
     {
-        result.fill = static_cast<Fill>(fill->oneOf({"none", "solid", "parity"}));
+        result.fill = static_cast<Fill>(fill->oneOf({"none", "solid", "parity", "robust"}));
     }
     return result;
 }

@@ -21,6 +21,7 @@
 #include <optional>
 #include <random>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace zvo
@@ -65,6 +66,30 @@ TEST(Fill, OfTetrahedraAnywhereIsWhatTheirWindingNumbersSay)
                          round % 2 == 0 ? Fill::Solid : Fill::Parity);
     }
     EXPECT_GT(interior, 5000U);
+}
+
+// Closed, it is as solid; with triangles removed, as most rays and neighbours say.
+TEST(Fill, OfSurfacesWithHolesIsWhatMostRaysSay)
+{
+    std::mt19937 random(2);
+    std::uint64_t interior = 0;
+    std::uint64_t undecided = 0;
+    for (int round = 0; round < 24; ++round)
+    {
+        const Grid grid = {glm::vec3(0), 1.0F, 3 + static_cast<std::uint32_t>(round % 5)};
+        const float half = static_cast<float>(grid.resolution()) / 2;
+        Scene scene =
+            round % 3 == 0 ? test::sphereScene(glm::vec3(half), 0.9F * half, 12) : test::tetrahedra(random, grid);
+        scene = test::withHoles(std::move(scene), random, round % 4 == 0 ? 0.0 : 0.2);
+        const test::FillComparison found = test::compareFill(
+            device(), scene, grid, round % 2 == 0 ? Coverage::Conservative : Coverage::Thin, Fill::Robust);
+        EXPECT_EQ(found.wrong, 0U) << round;
+        EXPECT_TRUE(found.same_surface);
+        interior += found.interior;
+        undecided += found.undecided;
+    }
+    EXPECT_GT(interior, 5000U);
+    EXPECT_GT(undecided, 100U);
 }
 
 struct FilledBall
