@@ -98,6 +98,8 @@ TEST_F(CliRun, FillsWhatIsClosedInAllOfItsFiles)
     constexpr std::size_t kCells = 16 * 16 * 16; // the cube is the whole grid
     run("voxelize cube.glb --resolution 16 --fill solid -o full.morton");
     EXPECT_EQ(file("full.morton").size(), kCells * sizeof(std::uint64_t));
+    run("voxelize cube.glb --resolution 16 --fill robust -o robust.morton");
+    EXPECT_EQ(file("robust.morton"), file("full.morton"));
     run("build cube.glb --resolution 16 --fill parity -o full.zvo --json full.json");
     EXPECT_EQ(json::parse(file("full.json"))["voxels"], kCells);
     run("convert full.zvo -o full.ply");

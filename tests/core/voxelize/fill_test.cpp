@@ -74,7 +74,7 @@ TEST(Fill, OfSurfacesWithHolesIsWhatMostRaysSay)
     std::mt19937 random(2);
     std::uint64_t interior = 0;
     std::uint64_t undecided = 0;
-    for (int round = 0; round < 24; ++round)
+    for (int round = 0; round < 10; ++round)
     {
         const Grid grid = {glm::vec3(0), 1.0F, 3 + static_cast<std::uint32_t>(round % 5)};
         const float half = static_cast<float>(grid.resolution()) / 2;
