@@ -113,8 +113,9 @@ bool isWithin(const Vec& point, const Vec& from, const Vec& to, const Vec& norma
 
 std::uint32_t squaredDistance(const Vec& point, const Triangle& triangle, std::uint32_t limit)
 {
-    const Big units(256);
     std::uint32_t least = UINT32_MAX;
+    const auto tryQuotient = [&](const Big& squares, const Big& divisor)
+    { least = std::min(least, floorQuotient(Big(256) * squares, divisor, std::min(limit, least))); };
     const Vec normal = normalOf(triangle);
     bool over_face = dot(normal, normal) != 0;
     for (std::size_t i = 0; i < 3; ++i)
@@ -122,10 +123,10 @@ std::uint32_t squaredDistance(const Vec& point, const Triangle& triangle, std::u
         const Vec& from = triangle[i];
         const Vec& to = triangle[(i + 1) % 3];
         const Vec edge = to - from;
-        least = std::min(least, floorQuotient(units * Big(dot(point - from, point - from)), Big(1), limit));
+        tryQuotient(Big(dot(point - from, point - from)), Big(1));
         if (dot(point - from, edge) > 0 && dot(point - to, edge) < 0) // then the edge is nearer than its ends
         {
-            least = std::min(least, floorQuotient(units * gram(edge, point - from), Big(dot(edge, edge)), limit));
+            tryQuotient(gram(edge, point - from), Big(dot(edge, edge)));
         }
         over_face = over_face && isWithin(point, from, to, normal);
     }
@@ -133,7 +134,7 @@ std::uint32_t squaredDistance(const Vec& point, const Triangle& triangle, std::u
     {
         const Vec a = triangle[1] - triangle[0];
         const Vec b = triangle[2] - triangle[0];
-        least = std::min(least, floorQuotient(units * gram(a, b, point - triangle[0]), gram(a, b), limit));
+        tryQuotient(gram(a, b, point - triangle[0]), gram(a, b));
     }
     return least;
 }
