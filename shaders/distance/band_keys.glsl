@@ -6,18 +6,19 @@
 
 #include "voxelize/fill_columns.glsl"
 
-const uint kBandKind = 3u; // after the kinds of columns' entries
+const uint kBandLine = 3u; // after the numbers of lines
 
 // The key of a brick of the grid.
 uvec2 bandKey(uvec3 brick)
 {
-    return columnKey(brick.xz, kBandKind, brick.y);
+    return columnKey(uvec3(brick.xz, kBandLine), kPartBricks, brick.y);
 }
 
 bool isBandKey(uvec2 key)
 {
-    return kWideKeys ? (key.y & (kWideColumnTag | (3u << 16))) == (kWideColumnTag | (kBandKind << 16))
-                     : (key.x & (kColumnTag | (3u << 28))) == (kColumnTag | (kBandKind << 28));
+    const uint lines = kBandLine << kColumnLineShift;
+    return kWideKeys ? (key.y & (kWideColumnTag | lines)) == (kWideColumnTag | lines)
+                     : (key.x & (kColumnTag | lines)) == (kColumnTag | lines);
 }
 
 uvec3 brickOfBandKey(uvec2 key)

@@ -13,15 +13,12 @@ layout(local_size_x = kLeavesGroup) in;
 #include "lib/morton.glsl"
 #include "voxelize/fill_columns.glsl"
 
-// Whether the cells from brick y of a column on down to the next brick are inside.
-bool isInsideBelow(uvec2 column, int y)
+// Whether the cells from a brick on down to the next one below it are inside.
+bool isInsideBelow(uvec3 brick)
 {
-    int above = brickFrom(column, y);
-    if (above == kNoBrick)
-        return false;
-    uvec2 open = columnMask(column, kPartOpen, uint(above) >> kPartLog2);
-    uint bit = uint(above) & 63u;
-    return (((bit < 32u ? open.x : open.y) >> (bit & 31u)) & 1u) == 0u;
+    uvec3 column = uvec3(brick.xz, 0u);
+    int above = brickFrom(column, int(brick.y));
+    return above != kNoBrick && !isInColumn(column, kPartOpen, above);
 }
 
 void main()
@@ -39,7 +36,7 @@ void main()
         uint word = brick.mask_lo * (2u * kFillPlanes * kLeafMaskWords) + 2u * cellInBlock(leaf);
         if (touched)
             inside = uvec2(params.crossings.data[word], params.crossings.data[word + 1u]);
-        else if (isInsideBelow(place.xz, int(place.y)))
+        else if (isInsideBelow(place))
             inside = uvec2(~0u);
     }
     uint least = kNoDistance;

@@ -54,6 +54,14 @@ uvec2 columnMask(uvec3 column, uint kind, uint part)
     return found ? uvec2(brick.mask_lo, brick.mask_hi) : uvec2(0u);
 }
 
+// Whether an entry has the bit of brick y.
+bool isInColumn(uvec3 column, uint kind, int y)
+{
+    uvec2 mask = columnMask(column, kind, uint(y) >> kPartLog2);
+    uint bit = uint(y) & 63u;
+    return (((bit < 32u ? mask.x : mask.y) >> (bit & 31u)) & 1u) != 0u;
+}
+
 // Sets a bit of an entry. Returns false if the table is full.
 bool setInColumn(uvec3 column, uint kind, uint part, uint bit)
 {

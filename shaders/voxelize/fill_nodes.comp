@@ -15,13 +15,6 @@ layout(local_size_x = kNodesGroup) in;
 #include "lib/morton.glsl"
 #include "voxelize/fill_columns.glsl"
 
-bool hasBit(uvec3 column, uint kind, int y)
-{
-    uvec2 mask = columnMask(column, kind, uint(y) >> kPartLog2);
-    uint bit = uint(y) & 63u;
-    return (((bit < 32u ? mask.x : mask.y) >> (bit & 31u)) & 1u) != 0u;
-}
-
 // 1 if the cells from brick `low` on down to the next brick are inside, as lines along an axis say, -1 if they are
 // outside, 0 if half of the rays say so.
 int sideAt(uvec3 low, uint line)
@@ -29,10 +22,10 @@ int sideAt(uvec3 low, uint line)
     uvec3 brick = turned(low, line);
     uvec3 column = uvec3(brick.xz, line);
     int above = brickFrom(column, int(brick.y));
-    bool is_open = above == kNoBrick || hasBit(column, kPartOpen, above);
+    bool is_open = above == kNoBrick || isInColumn(column, kPartOpen, above);
     // Above all bricks it is as below all of them the other way around.
     int asked = kRobust && above == kNoBrick ? brickFrom(column, 0) : above;
-    bool is_half = kRobust && asked != kNoBrick && hasBit(column, kPartHalf, asked);
+    bool is_half = kRobust && asked != kNoBrick && isInColumn(column, kPartHalf, asked);
     return is_half ? 0 : is_open ? -1 : 1;
 }
 
