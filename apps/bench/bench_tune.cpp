@@ -18,6 +18,7 @@
 #include "core/path/path_tracer.h"
 #include "core/trace/tree_tracer.h"
 #include "core/upload/gpu_scene.h"
+#include "runtime/distances.h"
 #include "runtime/trees.h"
 #include "zvo/error.h"
 #include "zvo/version.h"
@@ -97,6 +98,8 @@ public:
             return msOf(build(), {"voxelize/bin_large"});
         case Tunable::BrickLanes:
             return msOf(build(), {"voxelize/collect_bricks", "voxelize/brick_leaves"});
+        case Tunable::BandLanes:
+            return msOf(findDistances(m_device, m_scene, m_grid, {.band = 1}).passes, {"distance/measure"});
         case Tunable::MixedSums:
             return sumMs(build());
         case Tunable::PathForm:
@@ -190,6 +193,7 @@ bool canHave(const vk::Device& device, Tunable tunable, std::uint32_t value)
                               value <= report.max_subgroup_size);
     case Tunable::BlockLanes:
     case Tunable::BrickLanes:
+    case Tunable::BandLanes:
     case Tunable::MixedSums:
     case Tunable::PathForm:
     case Tunable::Loads:

@@ -214,7 +214,7 @@ void distanceFile(const BuildFileOptions& options)
         });
     run.freeScene();
     warnOfDropped(result.distances.leaf_count, result.dropped, run.counts, voxels.load.strict);
-    warnOfOpenLines(filled.open_lines, voxels.load.strict);
+    warnOfOpenSurfaces(filled.open, voxels.load.strict);
 
     run.progress.begin("writing");
     writeNvdbDistances(downloadDistances(run.device(), result.distances), downloadTree(run.device(), filled.octree),

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
 // Structs that C++ and GLSL share have the same memory layout.
+#include "algebra/algebra.h"
 #include "attributes/attributes.h"
 #include "core/base/kernels.h"
 #include "deform/deform.h"
 #include "denoise/denoise.h"
+#include "distance/distance.h"
 #include "edit/compact.h"
 #include "edit/edit.h"
 #include "glsl/host_kernels.h"
