@@ -46,7 +46,7 @@ enum
     ZVO_FILL_ROBUST = 3  ///< as solid, by what most rays and neighbours say: for surfaces that are not closed
 };
 
-/// What one tree is made of others by (docs/algebra.md).
+/// Operations that make a tree of one or two others (docs/algebra.md).
 typedef uint32_t ZvoTreeOperation;
 enum
 {

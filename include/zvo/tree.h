@@ -127,10 +127,10 @@ public:
 struct TreeAlgebraInfo
 {
     TreeOperation operation = TreeOperation::Unite;
-    bool corners = false;      // Keep, Dilate, Erode: neighbours are all 26, else the 6 across faces
-    std::uint32_t voxels = 1;  // Dilate, Erode: how many times
-    std::uint32_t largest = 0; // Keep: so many components, the largest; 0: those of least_voxels or more
-    std::uint64_t least_voxels = 1;
+    bool corners = false;           // Keep, Dilate, Erode: neighbours are all 26, else the 6 across faces
+    std::uint32_t voxels = 1;       // Dilate, Erode: how many times
+    std::uint32_t largest = 0;      // Keep: so many components, the largest; 0: those of least_voxels or more
+    std::uint64_t least_voxels = 1; // Keep with largest 0: components of so many voxels or more, at least 1
 };
 
 /// Makes an octree of one or two others, which stay as they are (docs/algebra.md): about four steps, more for
@@ -138,9 +138,10 @@ struct TreeAlgebraInfo
 class ZVO_API TreeAlgebra : public TreeJob
 {
 public:
-    /// tree, other: octrees of one grid of depth 3 or more, with attributes of 8 bytes or none. They outlive the job.
-    /// other: of Unite, Intersect and Subtract; else null. Throws Error{Usage} for other trees, and for trees whose
-    /// emission has different scales. First and last stage of the constructor: ALL_TRANSFER.
+    /// tree, other: octrees of one grid of depth 3 or more, with attributes of 8 bytes or none, both or neither. They
+    /// outlive the job, and are not given to another object until it is done. other: of Unite, Intersect and Subtract;
+    /// else null. Voxels have the attributes of tree, or else those of other. Throws Error{Usage} for other trees, and
+    /// for two whose emission has different scales. First and last stage of the constructor: ALL_TRANSFER.
     TreeAlgebra(Recorder& recorder, const Tree& tree, const Tree* other, const TreeAlgebraInfo& info);
 };
 

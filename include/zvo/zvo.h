@@ -387,7 +387,8 @@ typedef struct ZvoTreeAlgebraInfo
 
 #define ZVO_TREE_ALGEBRA_INFO_INIT ZVO_STRUCT_INIT(ZvoTreeAlgebraInfo, ZVO_TREE_OPERATION_UNITE, VK_FALSE, 1, 0, 1)
 
-/// other: may be null. Both trees outlive the job.
+/// other: of UNITE, INTERSECT and SUBTRACT; else null. Both trees outlive the job, and are not given to another object
+/// until it is done.
 ZVO_C_API ZvoResult zvoTreeAlgebraCreate(ZvoRecorder* recorder, const ZvoTree* tree, const ZvoTree* other,
                                          const ZvoTreeAlgebraInfo* info, ZvoTreeJob** algebra);
 

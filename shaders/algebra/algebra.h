@@ -125,7 +125,7 @@ struct LooksParams // push constants of algebra/looks: a workgroup a brick of th
     GPU_CONST_PTR(Attribute) node_looks; // of the nodes of a
     GPU_CONST_PTR(Node) nodes;           // of the result: leaves are nodes, full nodes have empty masks
     GPU_CONST_PTR(uvec2) occupied;       // [leaves] of a filled result: surface and inside; or null
-    GPU_CONST_PTR(uvec2) places;         // [nodes of the result]
+    GPU_CONST_PTR(uvec2) places;         // [nodes above leaves of the result]
     GPU_PTR(Attribute) attributes;       // [voxels]
     GPU_PTR(uvec2) emission_words;       // [ceil(voxels / 32)] get the bits of voxels that emit
     GPU_PTR(uint) emission;              // [emissive voxels] with kEmission
@@ -199,7 +199,7 @@ struct LabelsParams // push constants of algebra/labels and algebra/list: a thre
 GPU_KERNEL(algebra, labels, FlattenLabels, LabelsParams, ALGEBRA_LABELS_CONSTANTS)
 GPU_KERNEL(algebra, list, ListComponents, LabelsParams, GPU_NO_CONSTANTS)
 
-const uint kUnionSteps = 4096u; // of a thread: what is left is taken up by the next pass
+const uint kUnionSteps = 2048u; // of a thread, for all of its unions: what is left is taken up by the next pass
 
 GPU_NAMESPACE_END
 

@@ -19,7 +19,7 @@ layout(local_size_x = kAlgebraGroup) in;
 #include "lib/normal.glsl"
 
 const bool kTakesB = kOperation == kUnite || kOperation == kIntersect;
-const uint kNeighbours = kOperation == kDilate && !kCorners ? 6u : 27u; // that are looked at, with the voxel itself
+const uint kNeighbours = kOperation == kDilate && !kCorners ? 6u : 27u; // that are looked at; of 27, one is the voxel itself
 
 shared uint s_bricks[27];        // references of the brick in a and of those around it
 shared uint s_results[27];       // numbers of the same nodes in the result; 0: empty, kNothing: full

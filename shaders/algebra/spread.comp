@@ -53,7 +53,7 @@ uvec2 maskAt(ivec3 at)
     return s_masks[leafAroundNumber(uvec3(at))];
 }
 
-// The leaf at a place and those below and above it along z, spread along z; and so on along y.
+// The leaf at a place, with what reaches it along z, or along y and z.
 uvec2 spreadColumn(ivec3 at)
 {
     return spreadAlong(maskAt(at), maskAt(at - ivec3(0, 0, 1)), maskAt(at + ivec3(0, 0, 1)), 2u);

@@ -12,10 +12,12 @@ layout(local_size_x = kNodesGroup) in;
 #include "algebra/unit_masks.glsl"
 #include "lib/dispatch.glsl"
 
+uint g_steps = kUnionSteps; // that are left
+
 // Gives two units the same root, the lower one. Labels only ever become lower.
 void unite(uint a, uint b)
 {
-    for (uint step = 0u; a != b && step < kUnionSteps; ++step)
+    for (; a != b && g_steps != 0u; --g_steps)
     {
         uint low = min(a, b);
         uint high = max(a, b);

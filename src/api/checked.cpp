@@ -141,6 +141,7 @@ const TreeAlgebraInfo& checked(const TreeAlgebraInfo& info)
 {
     checkedEnum(info.operation, TreeOperation::Erode, "TreeAlgebraInfo::operation");
     requireOne(info.voxels, "TreeAlgebraInfo::voxels");
+    requireOne(info.least_voxels, "TreeAlgebraInfo::least_voxels");
     return info;
 }
 

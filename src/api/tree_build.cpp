@@ -10,6 +10,7 @@
 #include "core/svdag/svdag_builder.h"
 #include "zvo/tree.h"
 
+#include <algorithm>
 #include <map>
 #include <memory>
 #include <utility>
@@ -37,9 +38,15 @@ BuildOptions optionsOf(const TreeBuildInfo& info)
 // of the host: a step in each. The next step follows when the host says that the device is done with the last one.
 struct ZVO_LOCAL TreeJob::Impl
 {
-    // made_in: the frame in which the source was made; null: known to be done. source: what messages call it.
-    Impl(Context::Impl& context_impl, std::shared_ptr<FrameState> made_in, const char* source)
-        : context(context_impl), m_made_in(std::move(made_in)), m_source(source)
+    // What the tree is made of, by the name that messages have for it.
+    struct Source
+    {
+        std::shared_ptr<FrameState> made_in; // null: known to be done
+        const char* name;
+    };
+
+    Impl(Context::Impl& context_impl, std::vector<Source> sources)
+        : context(context_impl), m_sources(std::move(sources))
     {
     }
     virtual ~Impl() = default;
@@ -63,10 +70,13 @@ struct ZVO_LOCAL TreeJob::Impl
 
     bool isDone()
     {
-        if (m_made_in)
+        for (Source& source : m_sources)
         {
-            requireUsable(*m_made_in, m_source);
-            m_made_in = m_made_in->is_done ? nullptr : m_made_in;
+            if (source.made_in)
+            {
+                requireUsable(*source.made_in, source.name);
+                source.made_in = source.made_in->is_done ? nullptr : source.made_in;
+            }
         }
         if (m_is_broken)
         {
@@ -86,7 +96,11 @@ struct ZVO_LOCAL TreeJob::Impl
         return m_is_published;
     }
 
-    [[nodiscard]] bool isBroken() const { return m_is_broken || (m_made_in && m_made_in->is_lost); }
+    [[nodiscard]] bool isBroken() const
+    {
+        return m_is_broken || std::ranges::any_of(m_sources, [](const Source& source)
+                                                  { return source.made_in && source.made_in->is_lost; });
+    }
 
     std::unique_ptr<Tree::Impl> take()
     {
@@ -138,8 +152,7 @@ private:
         }
     }
 
-    std::shared_ptr<FrameState> m_made_in; // null: known to be done
-    const char* m_source;
+    std::vector<Source> m_sources;
     std::shared_ptr<FrameState> m_frame = nullptr; // of the step that is under way
     StepJob* m_part = nullptr;
     std::unique_ptr<Tree::Impl> m_tree = nullptr;
@@ -184,7 +197,7 @@ namespace
 struct Build final : TreeJob::Impl
 {
     Build(Context::Impl& context_impl, const Model::Impl& model, const TreeBuildInfo& info)
-        : Impl(context_impl, model.made_in, "model"), mesh(model.mesh), format(info.format),
+        : Impl(context_impl, {{model.made_in, "model"}}), mesh(model.mesh), format(info.format),
           builder(std::make_unique<OctreeBuilder>(context_impl.device, mesh->uploaded, checkedGrid(info.grid),
                                                   optionsOf(info)))
     {
@@ -224,7 +237,7 @@ struct Build final : TreeJob::Impl
 struct Compression final : TreeJob::Impl
 {
     Compression(Context::Impl& context_impl, Tree&& octree)
-        : Impl(context_impl, octree.impl()->made_in, "octree"), source(octree.release()),
+        : Impl(context_impl, {{octree.impl()->made_in, "octree"}}), source(octree.release()),
           builder(std::make_unique<SvdagBuilder>(context_impl.device, std::move(source->fixed), CompressOptions{}))
     {
         begin(*builder);
@@ -245,7 +258,8 @@ struct Compression final : TreeJob::Impl
 struct Algebra final : TreeJob::Impl
 {
     Algebra(Recorder::Impl& recorder, const Tree::Impl& a, const Tree::Impl* b, const TreeAlgebraInfo& info)
-        : Impl(recorder.context, recorder.frame, "algebra"),
+        : Impl(recorder.context,
+               {{recorder.frame, "algebra"}, {a.made_in, "tree"}, {b != nullptr ? b->made_in : nullptr, "other tree"}}),
           tables(std::make_unique<GpuScene>(uploadColorTables(context.uploads))),
           job(std::make_unique<AlgebraJob>(context.device, *tables,
                                            AlgebraInfo{.operation = info.operation,
@@ -256,10 +270,6 @@ struct Algebra final : TreeJob::Impl
                                            a.fixed, b != nullptr ? &b->fixed : nullptr))
     {
         begin(*job);
-        if (job->isDone())
-        {
-            setTree(job->take());
-        }
     }
 
     ~Algebra() override

@@ -24,7 +24,7 @@ inline std::vector<vk::PassTime> runSteps(vk::HeadlessDevice& device, StepJob& j
     return passes;
 }
 
-/// The same; returns the job's result.
+/// Runs a job to its end, waiting after each step, and returns the job's result. Throws what the steps throw.
 template <std::derived_from<StepJob> AnyJob> auto runJob(vk::HeadlessDevice& device, AnyJob job)
 {
     runSteps(device, job);

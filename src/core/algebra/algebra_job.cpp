@@ -3,6 +3,7 @@
 
 #include "zvo/error.h"
 
+#include <cassert>
 #include <utility>
 
 namespace zvo
@@ -12,6 +13,7 @@ AlgebraJob::AlgebraJob(vk::Device& device, const GpuScene& color_tables, const A
                        const DeviceTree* b)
     : m_device(device), m_tables(color_tables), m_info(info), m_a(a), m_b(b)
 {
+    assert(info.voxels != 0 && info.least_voxels != 0);
     if ((info.operation < TreeOperation::Keep) != (b != nullptr))
     {
         throw Error(ErrorCode::Usage,
@@ -84,6 +86,7 @@ void AlgebraJob::endComponents()
 {
     m_components = m_finder->take();
     m_finder.reset();
+    m_device.memory().require(m_a.node_count * sizeof(gpu::uvec2), "what is kept of nodes");
     m_masks = {m_device, "algebra/kept", m_a.node_count};
     operate(m_a);
 }

@@ -18,7 +18,7 @@ struct AlgebraInfo
 {
     TreeOperation operation = TreeOperation::Unite;
     bool corners = false;           // neighbours are all 26, else the 6 across faces
-    std::uint32_t voxels = 1;       // Dilate, Erode: how many times
+    std::uint32_t voxels = 1;       // Dilate, Erode: how many times, at least 1
     std::size_t largest = 0;        // Keep: so many components, the largest; 0: those of least_voxels or more
     std::uint64_t least_voxels = 1; // at least 1
 };

@@ -32,10 +32,10 @@ struct ComponentSize
 struct Components
 {
     std::vector<ComponentSize> list; // the largest first, of equals the one with the lowest root; not of the background
-    vk::BufferOf<gpu::uvec2> firsts; // [nodes]
-    vk::BufferOf<gpu::uvec2> ranks;  // [nodes]
-    vk::BufferOf<gpu::uint> labels;  // [units + 1]
-    vk::BufferOf<gpu::Component> sizes; // likewise
+    vk::BufferOf<gpu::uvec2> firsts; // [nodes] the lowest cell of each of a node\'s units
+    vk::BufferOf<gpu::uvec2> ranks;  // [nodes] x: a bit for each unit; y: units before
+    vk::BufferOf<gpu::uint> labels;  // [units + 1] roots
+    vk::BufferOf<gpu::Component> sizes; // [units + 1] of roots; empty for the background
     std::vector<vk::PassTime> passes;
     std::uint32_t retry_count = 0;
 };

@@ -183,9 +183,14 @@ void TreeOperator::list(vk::FrameGraph& graph)
         VoxelForm form;
         form.attributes = m_attributes;
         form.fill = m_filled ? Fill::Solid : Fill::None;
+        const std::uint64_t mask_words = m_capacities.bricks * gpu::kLeafMaskWords * (m_filled ? 3 : 1);
+        m_device.memory().require(m_capacities.table * sizeof(gpu::BrickEntry) +
+                                      m_capacities.bricks * sizeof(gpu::BrickRange) + mask_words * sizeof(gpu::uint) +
+                                      OctreeBuildBuffers::bytes(m_capacities.table, m_capacities.bricks),
+                                  "the bricks of an operation");
+        m_full = {m_device, "algebra/full", divideUp(m_capacities.table, 32)};
         m_bricks.emplace(
             OctreeBricks{{m_device, m_capacities, form}, {m_device, m_capacities.table, m_capacities.bricks}, {}});
-        m_full = {m_device, "algebra/full", divideUp(m_capacities.table, 32)};
     }
     VoxelizeBuffers& bricks = m_bricks->voxelize;
     graph.fill(m_no_nodes, 0);

@@ -34,11 +34,11 @@ struct OperationResult
     std::uint32_t retry_count = 0;
 };
 
-/// Carries out an operation by listed bricks, and makes an octree of the result. It is filled if an operand of Unite or
-/// Subtract, or both of Intersect, or the only one are, and by Enclose. Voxels keep the attributes and the emission
-/// that they have in a, or else in b. New ones have the mean of their neighbours' in a, or look like what is inside of
-/// a, and none emits; voxels that Erode or Subtract lays bare get a normal away from what they touch. The result
-/// depends on the operands alone. Cost: bricks with voxels, and those beside them.
+/// Carries out an operation by listed bricks, and makes an octree of the result. That is filled if either operand of
+/// Unite, both of Intersect, or a of the other operations is; that of Enclose always is. Voxels keep the attributes and
+/// the emission that they have in a, or else in b. New ones have the mean of their neighbours' in a, or look like what
+/// is inside of a, and none emits; voxels that Erode or Subtract lays bare get a normal away from what they touch. The
+/// result depends on the operands alone. Cost: bricks with voxels, and those beside them.
 class TreeOperator final : public BuildJob<TreeOperator, OperationResult>
 {
 public:
