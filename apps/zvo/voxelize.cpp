@@ -214,7 +214,7 @@ void distanceFile(const BuildFileOptions& options)
         });
     run.freeScene();
     warnOfDropped(result.distances.leaf_count, result.dropped, run.counts, voxels.load.strict);
-    warnOfOpenSurfaces(filled.open, voxels.load.strict);
+    warnOfOpenSurfaces({result.open_lines, std::nullopt}, voxels.load.strict);
 
     run.progress.begin("writing");
     writeNvdbDistances(downloadDistances(run.device(), result.distances), downloadTree(run.device(), filled.octree),

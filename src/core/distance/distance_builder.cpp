@@ -66,6 +66,10 @@ DistanceBuilder::DistanceBuilder(vk::Device& device, const PosedGpuScene& scene,
         throw Error(ErrorCode::Usage,
                     fmt::format("a band of {} voxels is out of range: 1 to {}", options.band, gpu::kBandMax));
     }
+    if (options.fill == Fill::Robust)
+    {
+        throw Error(ErrorCode::Usage, "distances take their sign from what fill solid or parity has inside");
+    }
     m_step = {&DistanceBuilder::cover, &DistanceBuilder::learnCover};
     m_readback = {device, kReadbackBytes};
     m_result.distances.grid = grid;

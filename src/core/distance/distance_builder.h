@@ -36,8 +36,9 @@ struct DistanceOptions
     static constexpr std::uint32_t kBandMax = gpu::kBandMax;
 
     std::uint32_t band = 3;  // voxels: 1 to kBandMax
-    Fill fill = Fill::Solid; // what is inside; None: nothing, distances have no sign
-    std::optional<VoxelizeCapacities> capacities = std::nullopt; // of the first run; by default, an estimate
+    Fill fill = Fill::Solid; // what is inside: Solid or Parity; None: nothing, distances have no sign
+    std::optional<VoxelizeCapacities> capacities = std::nullopt; // of the first run; by default, an estimate. The
+                                                                 // table is a power of two
 };
 
 /// Distances and how they came about.

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cstdint>
@@ -107,6 +108,14 @@ private:
         return first;
     }
 
+    // Whether a node of NanoVDB has a leaf with a cell in the band.
+    [[nodiscard]] bool hasLeaf(const glm::uvec3& node) const
+    {
+        const auto found = std::ranges::lower_bound(m_distances.leaves, codeOfCell(2U * node), {},
+                                                    [](const auto& leaf) { return codeOfCell(leaf.leaf); });
+        return found != m_distances.leaves.end() && found->leaf / 2U == node;
+    }
+
     // Nodes right below the root in which all is inside have no leaf yet.
     void addInnerNodes()
     {
@@ -115,8 +124,8 @@ private:
         {
             const glm::uvec3 corner = kRootCellEdge * glm::uvec3(i % count, i / count % count, i / count / count);
             const glm::ivec3 at(corner);
-            if (hasCell(m_filled, corner) && !m_values.isActive({at.x, at.y, at.z}) &&
-                m_values.getValue({at.x, at.y, at.z}) == m_background)
+            if (hasCell(m_filled, corner) && !hasLeaf(corner / static_cast<std::uint32_t>(kNodeEdge)) &&
+                !m_values.isActive({at.x, at.y, at.z}) && m_values.getValue({at.x, at.y, at.z}) == m_background)
             {
                 addNode(corner / static_cast<std::uint32_t>(kNodeEdge), m_distances.leaves.size());
             }
