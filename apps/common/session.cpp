@@ -262,7 +262,7 @@ bool warnOfDropped(std::uint64_t voxel_count, const std::map<std::string, std::u
 
 bool warnOfOpenSurfaces(const OpenSurfaces& open, bool strict)
 {
-    if (open.lines == 0)
+    if (open.lines == 0 && open.undecided.value_or(0) == 0)
     {
         return false;
     }

@@ -63,10 +63,13 @@ GpuScene uploadWithWarnings(vk::HeadlessDevice& device, const Scene& scene, cons
 /// The grid that options or the animated scene ask for, or else the grid around bounds, those of the animated scene.
 Grid placeGrid(const VoxelOptions& options, const AnimatedScene& animated, const Bounds& bounds);
 
+/// Reports surfaces that are open, with what was filled all the same and what was left out. Returns whether it did.
+/// strict: throws Error{Input} in place of it.
+bool warnOfOpenSurfaces(const OpenSurfaces& open, bool strict);
+
 /// Reports if there are no voxels, and why; connected parts without any; and triangles that were left out because their
 /// numbers make no sense. dropped: triangles by reason. Returns whether anything was reported. strict: throws
 /// Error{Input} in place of it.
-bool warnOfOpenSurfaces(const OpenSurfaces& open, bool strict);
 bool warnOfDropped(std::uint64_t voxel_count, const std::map<std::string, std::uint64_t>& dropped,
                    const SceneCounts& counts, bool strict);
 

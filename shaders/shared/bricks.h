@@ -65,7 +65,7 @@ struct BrickCounters
     uint node_count;     // nodes listed so far
     uint overflow_count; // inserts that found no slot
     uint full_nodes[10]; // nodes of a level without a triangle that are inside, from the lowest level up
-    uint undecided[10];  // of these, those of which rays along as many axes say yes as no
+    uint undecided[10];  // and those of which as many axes say that they are inside as that they are outside
     uint arrived[10];    // threads that have listed the nodes of a level, from the lowest up (lib/arrivals.glsl)
 };
 GPU_BUFFER(BrickCounters, 4);

@@ -20,6 +20,10 @@ namespace
 
 constexpr std::uint32_t kFilledDepthMin = 3; // a filled tree has leaf words
 
+// In deeper grids a thread that walks a whole column of bricks twice would need more iterations than software devices
+// give it.
+constexpr std::uint32_t kRobustDepthMax = 15;
+
 constexpr std::uint32_t kRetriesMax = 32; // a table of one brick grows to the largest in half of them
 
 // Rounds the table's capacity up to a power of two, whatever was asked for.
@@ -91,6 +95,11 @@ OctreeBuilder::OctreeBuilder(vk::Device& device, const PosedGpuScene& scene, con
     if (options.fill != Fill::None && (grid.depth < kFilledDepthMin || tile.depth != grid.depth))
     {
         throw Error(ErrorCode::Usage, "only whole grids with a resolution of 8 or more can be filled");
+    }
+    if (options.fill == Fill::Robust && grid.depth > kRobustDepthMax)
+    {
+        throw Error(ErrorCode::Usage, fmt::format("only grids with a resolution of up to {} are filled as robust",
+                                                  1U << kRobustDepthMax));
     }
     m_step = {&OctreeBuilder::cover, &OctreeBuilder::learnCoverage};
     m_readback = {device, kBrickReadbackBytes};

@@ -41,7 +41,8 @@ constexpr std::uint64_t kItemsMin = 1 << 12;
 constexpr std::uint64_t kBricksGuessMax = 1 << 20; // the area may lie outside of the grid, for the most part
 constexpr std::uint64_t kItemsGuessMax = 1 << 25;
 // Kernels index quarters of a setup's surfaces, of which it has two with emission, an item's voxels, which are two with
-// conservative coverage, and the words of a brick's masks, at most 256: kIndicesMax each.
+// conservative coverage, and the words of a brick's masks, at most 256: kIndicesMax each. countable() checks those of
+// crossings.
 constexpr std::uint64_t kSetupsMax = 1ULL << 28;
 constexpr std::uint64_t kItemsMax = 1ULL << 30;
 constexpr std::uint64_t kBricksMax = 1ULL << 23;
@@ -82,6 +83,16 @@ std::uint32_t planesOf(const VoxelForm& form, const VoxelizeCapacities& capaciti
 std::uint64_t crossingWordsOf(const VoxelForm& form, const VoxelizeCapacities& capacities)
 {
     return capacities.bricks * gpu::fillWords(planesOf(form, capacities), form.fill == Fill::Robust);
+}
+
+// What is allocated has indices of 32 bits.
+const VoxelForm& countable(const VoxelForm& form, const VoxelizeCapacities& capacities)
+{
+    if (std::max(maskWordsOf(form, capacities.bricks), crossingWordsOf(form, capacities)) > kIndicesMax)
+    {
+        throwUncountable("bricks");
+    }
+    return form;
 }
 
 // Threads of voxelize/fill a brick.
@@ -280,7 +291,7 @@ std::uint64_t VoxelizeCapacities::bytes(const GpuScene& scene, const VoxelForm& 
 
 VoxelizeBuffers::VoxelizeBuffers(vk::Device& device, const VoxelizeCapacities& capacities, const GpuScene& scene,
                                  const VoxelForm& voxel_form)
-    : form(voxel_form), table(device, "voxelize/bricks", capacities.table),
+    : form(countable(voxel_form, capacities)), table(device, "voxelize/bricks", capacities.table),
       setups(device, "voxelize/setups", capacities.setups),
       surfaces(device, "voxelize/surfaces", surfacesOf(form, scene, capacities.setups)),
       items(device, "voxelize/items", capacities.items),
@@ -296,7 +307,7 @@ VoxelizeBuffers::VoxelizeBuffers(vk::Device& device, const VoxelizeCapacities& c
 }
 
 VoxelizeBuffers::VoxelizeBuffers(vk::Device& device, const VoxelizeCapacities& capacities, const VoxelForm& voxel_form)
-    : form(voxel_form), table(device, "voxelize/bricks", capacities.table),
+    : form(countable(voxel_form, capacities)), table(device, "voxelize/bricks", capacities.table),
       ranges(device, "voxelize/brick_ranges", capacities.bricks),
       masks(device, "voxelize/brick_masks", maskWordsOf(form, capacities.bricks)),
       fill_planes(planesOf(form, capacities)),
