@@ -108,6 +108,7 @@ TEST_F(CliRun, FillsWhatIsClosedInAllOfItsFiles)
     run("build cube.glb --resolution 16 --structure svo -o shell.zvo");
     run("render shell.zvo -o b.png --size 64x48");
     EXPECT_EQ(file("a.png"), file("b.png"));
+    expectError("build cube.glb --resolution 16 --fill robust --distance 2 -o a.nvdb", 2, {"solid or parity"});
     expectError("build cube.glb --resolution 16 --fill solid --structure svdag -o a.zvo", 2, {"--structure svo"});
     expectError("voxelize cube.glb --resolution 4 --fill solid -o a.morton", 2, {"resolution of 8"});
     run("build cube.glb --resolution 16 --distance 2 -o near.nvdb --json near.json");
