@@ -28,7 +28,6 @@ STORAGE(1, uvec2, crossings);
 #define CROSSINGS(I) uvec2_Ptr(uint64_t(params.crossings)).data[I]
 #endif
 
-const uint kDigits = 5u;                // of what six rays and twice six neighbours say
 const uint kFaceRays = 2u * 16u * 16u; // both ways, of the lines of a brick
 
 // The voxels of a leaf that are inside (x, y) and outside (z, w) so far. One of the two arrays is read in a round.
@@ -41,21 +40,30 @@ uint rangePairs() // of a range's crossings
     return fillWords(kFillPlanes, true) / 2u;
 }
 
-struct Count // of 64 voxels
+struct Count // of 64 voxels, what six rays and twice six neighbours say
 {
-    uvec2 digits[kDigits];
+    uvec2 ones;
+    uvec2 twos;
+    uvec2 fours;
+    uvec2 eights;
+    uvec2 sixteens;
 };
 
-void add(inout Count count, uvec2 bit, uint digit)
+void addTwo(inout Count count, uvec2 bit)
 {
-    [[unroll]] for (uint k = 0u; k < kDigits; ++k)
-    {
-        if (k < digit)
-            continue;
-        uvec2 carry = count.digits[k] & bit;
-        count.digits[k] ^= bit;
-        bit = carry;
-    }
+    uvec2 fours = count.twos & bit;
+    count.twos ^= bit;
+    uvec2 eights = count.fours & fours;
+    count.fours ^= fours;
+    count.sixteens ^= count.eights & eights;
+    count.eights ^= eights;
+}
+
+void addOne(inout Count count, uvec2 bit)
+{
+    uvec2 twos = count.ones & bit;
+    count.ones ^= bit;
+    addTwo(count, twos);
 }
 
 // Turns the coordinates of the voxels in masks of leaves: what stood at (x, y, z) stands at (y, z, x). Words 0 and 1, 2
@@ -82,8 +90,8 @@ uvec4 raysOf(uint first, uvec3 leaf, uint line)
 
 void addRays(inout Count count, uvec4 rays)
 {
-    add(count, rays.xy, 0u);
-    add(count, rays.zw, 0u);
+    addOne(count, rays.xy);
+    addOne(count, rays.zw);
 }
 
 // For each voxel, the bit of its neighbour ahead or behind along an axis. beside: the leaf there.
@@ -119,12 +127,12 @@ uvec4 vote(Count count, uint first, uint number, uvec3 leaf, uvec2 is_free)
         bool in_brick = all(lessThan(there, uvec3(4u)));
         uvec4 beside = s_sides[first + cellInBlock(there)];
         uvec4 sides = neighbours(own, in_brick ? beside : uvec4(0u), axis, ahead);
-        add(count, ~(sides.xy | sides.zw), 0u); // inside counts 2, outside 0
-        add(count, sides.xy, 1u);
+        addOne(count, ~(sides.xy | sides.zw)); // inside counts 2, outside 0
+        addTwo(count, sides.xy);
     }
     // A voxel is inside above 9, when more than half say so.
-    uvec2 above = count.digits[4] | (count.digits[3] & (count.digits[2] | count.digits[1]));
-    uvec2 even = ~above & count.digits[3] & count.digits[0];
+    uvec2 above = count.sixteens | (count.eights & (count.fours | count.twos));
+    uvec2 even = ~above & count.eights & count.ones;
     return uvec4((above | (even & own.xy)) & is_free, (~(above | even) | (even & own.zw)) & is_free);
 }
 
@@ -152,17 +160,15 @@ void main()
     uvec3 leaf = cellNumbered(number);
     uint first = brick * rangePairs();
     uvec2 is_free = ~SURFACE(brick * ((kMixed ? 2u : 1u) * kBrickLeaves) + number);
-    Count count;
-    [[unroll]] for (uint k = 0u; k < kDigits; ++k)
-        count.digits[k] = uvec2(0u);
+    Count count = Count(uvec2(0u), uvec2(0u), uvec2(0u), uvec2(0u), uvec2(0u));
     addRays(count, raysOf(first, leaf, 0u));
     addRays(count, turnedMasks(turnedMasks(raysOf(first, leaf, 1u))));
     addRays(count, turnedMasks(raysOf(first, leaf, 2u)));
-    uvec2 most = count.digits[2]; // 4 to 6
-    uvec2 three = ~most & count.digits[1] & count.digits[0];
+    uvec2 most = count.fours; // 4 to 6
+    uvec2 three = ~most & count.twos & count.ones;
     uvec4 sides = uvec4(most & is_free, ~(most | three) & is_free);
-    uvec2 all = most & count.digits[1];
-    uvec2 contested = is_free & ~all & (count.digits[0] | count.digits[1] | count.digits[2]);
+    uvec2 all = most & count.twos;
+    uvec2 contested = is_free & ~all & (count.ones | count.twos | count.fours);
     if (number == 0u)
     {
         s_is_contested = 0u;

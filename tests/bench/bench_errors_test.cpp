@@ -22,7 +22,7 @@ const std::vector<WrongUse>& wrongUses()
         {"ResolutionTooHigh", 2, {"build", "cube.glb", "--resolutions", "64,262144"}, {"262144", "131072"}},
         {"TuningOfNothing", 2, {"rays", "cube.glb", "--tuning", "rows=3"}, {"--tuning rows=3", "block-lanes"}},
         {"TuningOfTune", 2, {"tune", "--tuning", "block-lanes=32"}, {"--tuning", "zvo-bench tune --help"}},
-        {"TuneOfTwoScenes", 2, {"tune", "cube.glb", "again.glb"}, {"SCENE", "1 required", "zvo-bench tune --help"}},
+        {"TuneOfTwoScenes", 2, {"tune", "cube.glb", "again.glb"}, {"SCENE", "more than once", "zvo-bench tune --help"}},
         {"TuneOfTwoResolutions", 2, {"tune", "cube.glb", "--resolution", "8,16"}, {"8,16", "power of two"}},
         {"CameraOfBuild", 2, {"build", "cube.glb", "--camera", "close"}, {"--camera", "zvo-bench build --help"}},
         {"SizeOfRays", 2, {"rays", "cube.glb", "--size", "8x8"}, {"--size"}},

@@ -290,7 +290,7 @@ TEST_F(BenchRun, SolidTellsWhatFillingAndAlgebraTake)
         EXPECT_GT(row["ms"]["median"], 0);
         voxels[row["work"]] = row["voxels"];
     }
-    EXPECT_EQ(voxels["enclose"], voxels["build and fill"]);
+    EXPECT_GE(voxels["enclose"], voxels["build the surface"]);
     EXPECT_EQ(voxels["union"], voxels["build and fill"]);
     EXPECT_EQ(voxels["difference"] + voxels["erode"], voxels["build and fill"]);
     EXPECT_EQ(voxels["largest component"], voxels["build the surface"]);
