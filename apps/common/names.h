@@ -3,6 +3,7 @@
 #pragma once
 
 #include "core/frame/frame_options.h"
+#include "io/scene/load_scene.h"
 #include "vk/swapchain.h"
 #include "zvo/error.h"
 #include "zvo/types.h"
@@ -52,6 +53,12 @@ inline constexpr auto kCoverages =
     std::to_array<Named<Coverage>>({{"thin", Coverage::Thin}, {"conservative", Coverage::Conservative}});
 inline constexpr auto kFills = std::to_array<Named<Fill>>(
     {{"none", Fill::None}, {"solid", Fill::Solid}, {"parity", Fill::Parity}, {"robust", Fill::Robust}});
+inline constexpr auto kAxes = std::to_array<Named<UpAxis>>({{"x", UpAxis::X},
+                                                            {"y", UpAxis::Y},
+                                                            {"z", UpAxis::Z},
+                                                            {"-x", UpAxis::MinusX},
+                                                            {"-y", UpAxis::MinusY},
+                                                            {"-z", UpAxis::MinusZ}});
 inline constexpr auto kStructures =
     std::to_array<Named<TreeStructure>>({{"svo", TreeStructure::Svo}, {"svdag", TreeStructure::Svdag}});
 inline constexpr auto kMergeRules = std::to_array<Named<MergeRule>>(

@@ -120,12 +120,6 @@ void addAttributesOption(CLI::App& app, AttributeFormat& attributes)
 
 void addLoadOptions(CLI::App& app, LoadOptions& options)
 {
-    static constexpr auto kAxes = std::to_array<Named<UpAxis>>({{"x", UpAxis::X},
-                                                                {"y", UpAxis::Y},
-                                                                {"z", UpAxis::Z},
-                                                                {"-x", UpAxis::MinusX},
-                                                                {"-y", UpAxis::MinusY},
-                                                                {"-z", UpAxis::MinusZ}});
     addNamed(app, "--up", options.up, kAxes,
              "which axis points up in the files: x, y, z, -x, -y or -z; it becomes y (default y)",
              "x, y, z, -x, -y or -z")

@@ -21,6 +21,7 @@ namespace
 
 const char* g_program = "zvo";
 std::function<void(std::string_view)> g_listener;
+TalkTo g_talk_to = TalkTo::Both;
 bool g_quiet = false;
 std::atomic<bool> g_bar_shown = false;
 static_assert(std::atomic<bool>::is_always_lock_free); // so that a signal handler may use it
@@ -36,6 +37,10 @@ void talk(std::string_view text)
     if (g_listener)
     {
         g_listener(text);
+        if (g_talk_to == TalkTo::ListenerAlone)
+        {
+            return;
+        }
     }
     std::string line = fmt::format("{}: {}", g_program, text);
     std::replace_if(
@@ -79,9 +84,10 @@ void nameProgram(const char* name)
     g_program = name;
 }
 
-void listenToTalk(std::function<void(std::string_view)> listener)
+void listenToTalk(std::function<void(std::string_view)> listener, TalkTo to)
 {
     g_listener = std::move(listener);
+    g_talk_to = to;
 }
 
 void clearProgressBar() noexcept

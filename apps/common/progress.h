@@ -31,8 +31,15 @@ void talkError(const std::exception& error);
 /// Sets the program's name for talk(): "zvo" until then. name must outlive all calls of talk().
 void nameProgram(const char* name);
 
-/// From now on, all lines go to listener as well; null: to standard error only.
-void listenToTalk(std::function<void(std::string_view)> listener);
+/// Who gets the lines of talk() beside a listener.
+enum class TalkTo
+{
+    Both,         // standard error
+    ListenerAlone // nobody
+};
+
+/// From now on, all lines go to listener; null: to standard error only.
+void listenToTalk(std::function<void(std::string_view)> listener, TalkTo to = TalkTo::Both);
 
 /// Removes the progress bar from the screen, if one is shown. Async-signal-safe.
 void clearProgressBar() noexcept;

@@ -1,0 +1,47 @@
+# SPDX-License-Identifier: MIT
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+
+from . import _arrays, _native
+from ._tree import Tree
+
+_FOUND, _UNDECIDED = 1, 2
+
+
+@dataclass(frozen=True)
+class Hits:
+    """What M rays have found, a row for each."""
+
+    hit: np.ndarray
+    """(M,) bool: whether the ray enters a voxel, or begins in one."""
+    t: np.ndarray
+    """(M,) float32: where it enters the first voxel, in lengths of its direction; infinity where there is none."""
+    voxel: np.ndarray
+    """(M, 3) int32: the voxel's cell; -1 where there is none."""
+    face: np.ndarray
+    """(M,) int8: the axis of the face by which the ray comes, 0 to 2; 3: it begins inside; -1 where there is none."""
+    normal: np.ndarray
+    """(M, 3) float32: the voxel's normal, of length 1, or 0 where there is none."""
+    color: np.ndarray
+    """(M, 3) uint8: the voxel's colour, sRGB; 0 where there is none."""
+    undecided: np.ndarray
+    """(M,) bool: rays that were given up, because the way through the tree took too long; of deep grids alone."""
+
+
+def trace(tree: Tree, origins: npt.ArrayLike, directions: npt.ArrayLike, *, t_min: float = 0.0,
+          t_max: float = float("inf")) -> Hits:
+    """Traces rays through a tree, exactly: the first voxel is that of a walk through all cells.
+
+    origins: (M, 3) numbers, world units.
+    directions: (M, 3) numbers, of any length but 0, which is the unit of t.
+    t_min, t_max: the part of the rays that counts.
+
+    Rays with numbers that are not finite find nothing. Raises ValueError, ZvoError."""
+    starts = _arrays.rows("origins", origins, 3)
+    ways = _arrays.rows("directions", directions, 3, np.float32, len(starts), "origins")
+    state, t, voxel, face, normal, color = _native.trace(tree._native, starts, ways, t_min, t_max)
+    return Hits(state == _FOUND, t, voxel, face, normal, color, state == _UNDECIDED)
