@@ -39,7 +39,7 @@ template <typename T> py::array_t<T> arrayOf(std::vector<T>&& numbers, std::vect
     auto owned = std::make_unique<std::vector<T>>(std::move(numbers));
     const T* const data = owned->data();
     const py::capsule owner(owned.release(), [](void* vector) { delete static_cast<std::vector<T>*>(vector); });
-    return {std::move(shape), data, owner};
+    return py::array_t<T>(std::move(shape), data, owner);
 }
 
 } // namespace zvo::python

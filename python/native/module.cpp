@@ -117,7 +117,7 @@ py::tuple voxelsOf(const Tree& tree)
     Voxels voxels = withoutLock([&] { return tree.voxels(); });
     const auto count = static_cast<py::ssize_t>(voxels.coords.size() / 3);
     const auto rows = [&](auto& numbers) { return arrayOf(std::move(numbers), {count, 3}); };
-    if (!tree.device().hasAttributes())
+    if (!tree.device().hasAttributes() && count != 0)
     {
         return py::make_tuple(rows(voxels.coords), py::none(), py::none());
     }

@@ -80,7 +80,8 @@ void writePicture(const std::string& path, std::uint32_t width, std::uint32_t he
     constexpr std::array<std::string_view, 4> kKinds = {".png", ".jpg", ".jpeg", ".webp"};
     cli::checkPictureName("picture", path, kKinds);
     cli::Output output(path, true);
-    output.write(std::as_bytes(std::span(cli::encodePicture(path, width, height, texels))));
+    const std::vector<std::uint8_t> encoded = cli::encodePicture(path, width, height, texels);
+    output.write(std::as_bytes(std::span(encoded)));
     output.finish();
 }
 

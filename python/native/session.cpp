@@ -51,16 +51,21 @@ void Session::closeAll()
     }
 }
 
+Session::Session(const std::string& name) : m_process(::getpid())
+{
+    cli::DeviceOptions options;
+    options.device = name;
+    m_device = cli::openDevice(options);
+}
+
 // In a process that was forked, nothing of the device is touched: its threads are not there.
 Session::~Session()
 {
     if (isForked())
     {
-        static_cast<void>(new std::shared_ptr(std::move(m_device)));
+        static_cast<void>(new std::pair(std::move(m_device), std::move(m_retired)));
     }
 }
-
-Session::Session(const std::string& name) : m_device(cli::openDevice({.device = name})), m_process(::getpid()) {}
 
 void Session::retire(DeviceTree&& tree) noexcept
 {

@@ -19,7 +19,8 @@ class Hits:
     hit: np.ndarray
     """(M,) bool: whether the ray enters a voxel, or begins in one."""
     t: np.ndarray
-    """(M,) float32: where it enters the first voxel, in lengths of its direction; infinity where there is none."""
+    """(M,) float32: where it enters the first voxel, in lengths of its direction; infinity where there is none. Of a ray
+    that begins inside it is t_min, or the least number above 0."""
     voxel: np.ndarray
     """(M, 3) int32: the voxel's cell; -1 where there is none."""
     face: np.ndarray

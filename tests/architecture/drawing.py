@@ -13,7 +13,8 @@ SWEEPS = 24
 # Fill and frame by the first part of a room's name.
 COLORS = {"include": ("#f3e6fa", "#8e4fae"), "shaders": ("#fdf0d5", "#b7791f"), "vk": ("#e3e8ee", "#52606d"),
           "core": ("#dcebfb", "#2b6cb0"), "io": ("#ddf3e4", "#2f855a"), "runtime": ("#d8f1f1", "#2c7a7b"),
-          "baseline": ("#f0e9dc", "#7b6a4d"), "api": ("#f3e6fa", "#8e4fae"), "apps": ("#fbe3e0", "#c0392b")}
+          "baseline": ("#f0e9dc", "#7b6a4d"), "api": ("#f3e6fa", "#8e4fae"), "apps": ("#fbe3e0", "#c0392b"),
+          "python": ("#fff6bf", "#8a6d00")}
 
 
 def reduce_arrows(known):

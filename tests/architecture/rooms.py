@@ -11,7 +11,8 @@ import re
 SUFFIXES = {".h", ".hpp", ".c", ".cpp", ".glsl", ".comp"}
 # Folders of includes, by the folder of the including file; the file's own folder comes first.
 SEARCHED = {"include": ["include"], "shaders": ["shaders"], "src": ["src", "shaders", "include"],
-            "apps": ["apps", "src", "shaders", "include"]}
+            "apps": ["apps", "src", "shaders", "include"],
+            "python": ["apps", "src", "shaders", "include"]}
 # Headers of the system, which do not count as a library. Those of C++ have no extension.
 SYSTEM = {"dlfcn.h", "fcntl.h", "fnmatch.h", "spawn.h", "stddef.h", "stdint.h", "sys/file.h", "sys/stat.h", "sys/wait.h",
           "unistd.h"}

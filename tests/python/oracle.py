@@ -21,8 +21,11 @@ def cells_of(mask):
     return cells[np.argsort(codes)]
 
 
-def _cells(resolution):
-    return np.stack(np.meshgrid(*[np.arange(resolution)] * 3, indexing="ij"), -1).astype(np.int64)
+def _cells_around(corners, resolution):
+    """The cells that a triangle's box touches, [x, y, z] -> cell."""
+    low = np.clip((corners.min(0) - 1) // 256, 0, resolution - 1)
+    high = np.clip(corners.max(0) // 256, 0, resolution - 1)
+    return np.stack(np.meshgrid(*[np.arange(a, b + 1) for a, b in zip(low, high)], indexing="ij"), -1).astype(np.int64)
 
 
 def _touches_ranges(corners, cells):
@@ -61,28 +64,37 @@ def _thin(corners, cells, resolution):
     return covered
 
 
-def _conservative(corners, cells, _resolution):
-    """No axis separates the triangle from the box: those of the box, the normal, and products of edges with them."""
-    covered = _touches_ranges(corners, cells)
+def _conservative(corners, cells, _resolution, grown=0):
+    """No axis separates the triangle from the box: those of the box, the normal, and products of edges with them. grown:
+    lattice units by which boxes are larger on all sides."""
+    half = 128 + grown
+    covered = (np.abs(256 * cells + 128 - np.clip(256 * cells + 128, corners.min(0), corners.max(0))) <= half).all(-1)
     edges = [corners[(i + 1) % 3] - corners[i] for i in range(3)]
     units = np.eye(3, dtype=np.int64)
     for axis in [np.cross(edges[0], edges[1])] + [np.cross(edge, unit) for edge in edges for unit in units]:
         of_triangle = corners @ axis
         middle = (256 * cells + 128) @ axis
-        reach = 128 * np.abs(axis).sum()
+        reach = half * np.abs(axis).sum()
         covered &= (middle - reach <= of_triangle.max()) & (of_triangle.min() <= middle + reach)
     return covered
 
 
-def voxels(vertices, faces, resolution, origin, voxel_size, coverage):
-    """The cells of a mesh in Morton order."""
+def occupied(vertices, faces, resolution, origin, voxel_size, coverage, **options):
+    """The cells of a mesh as a mask [x, y, z]."""
     lattice = snapped(vertices, origin, voxel_size)
-    cells = _cells(resolution)
-    mask = np.zeros(cells.shape[:3], bool)
+    mask = np.zeros((resolution,) * 3, bool)
     rule = _thin if coverage == "thin" else _conservative
     for face in np.asarray(faces):
-        mask |= rule(lattice[face], cells, resolution)
-    return cells_of(mask)
+        cells = _cells_around(lattice[face], resolution)
+        x, y, z = cells[0, 0, 0]
+        part = mask[x:x + cells.shape[0], y:y + cells.shape[1], z:z + cells.shape[2]]
+        part |= rule(lattice[face], cells, resolution, **options)
+    return mask
+
+
+def voxels(*arguments):
+    """The cells of a mesh in Morton order; arguments as of occupied()."""
+    return cells_of(occupied(*arguments))
 
 
 def first_hits(coords, origin, voxel_size, origins, directions):
