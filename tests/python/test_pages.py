@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: MIT
 """The pages' code in Python runs, each page's from its first block to its last."""
 
+import contextlib
+import io
 import os
 import re
 import unittest
@@ -17,8 +19,9 @@ class Pages(support.Case):
         os.chdir(self.folder)
         self.addCleanup(os.chdir, before)
         names = {}
-        for block in blocks:
-            exec(compile(block, "docs/python.md", "exec"), names)
+        with contextlib.redirect_stdout(io.StringIO()):
+            for block in blocks:
+                exec(compile(block, "docs/python.md", "exec"), names)
 
 
 if __name__ == "__main__":
