@@ -38,12 +38,10 @@ def install(folder):
     build = pathlib.Path(os.environ.get("ZVO_BUILD", SOURCES / "build/wheel"))
 
     def cmake(*arguments):
-        subprocess.run(["cmake", *map(str, arguments)], check=True)
+        subprocess.run(["cmake", *map(str, arguments)], check=True, cwd=SOURCES)
 
-    cmake("-S", SOURCES, "-B", build, "-G", "Ninja", "-DZVO_PYTHON=ON", f"-DPython3_EXECUTABLE={sys.executable}",
-          *([] if (build / "CMakeCache.txt").exists() else ["-DCMAKE_BUILD_TYPE=Release", "-DZVO_DEMO=OFF",
-                                                            "-DZVO_BENCH=OFF", "-DZVO_TESTS=OFF",
-                                                            "-DZVO_EXAMPLES=OFF"]))
+    preset = [] if (build / "CMakeCache.txt").exists() else ["--preset", "run"]
+    cmake(*preset, "-B", build, "-DZVO_PYTHON=ON", f"-DPython3_EXECUTABLE={sys.executable}")
     cmake("--build", build, "--target", "zvo_python")
     cmake("--install", build, "--component", "python", "--strip", "--prefix", folder)
 

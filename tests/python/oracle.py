@@ -21,46 +21,43 @@ def cells_of(mask):
     return cells[np.argsort(codes)]
 
 
-def _cells_around(corners, resolution):
-    """The cells that a triangle's box touches, [x, y, z] -> cell."""
-    low = np.clip((corners.min(0) - 1) // 256, 0, resolution - 1)
-    high = np.clip(corners.max(0) // 256, 0, resolution - 1)
-    return np.stack(np.meshgrid(*[np.arange(a, b + 1) for a, b in zip(low, high)], indexing="ij"), -1).astype(np.int64)
-
-
-def _touches_ranges(corners, cells):
-    low, high = corners.min(0), corners.max(0)
-    return ((256 * cells <= high) & (low <= 256 * (cells + 1))).all(-1)
+def _candidates(lattice, faces, resolution):
+    """Rows (face, cell) of all cells that the faces' boxes touch: corners (M, 3, 3) and cells (M, 3)."""
+    corners = lattice[faces]
+    low = np.clip((corners.min(1) - 1) // 256, 0, resolution - 1)
+    size = np.clip(corners.max(1) // 256, 0, resolution - 1) - low + 1
+    counts = size.prod(1)
+    row = np.repeat(np.arange(len(faces)), counts)
+    number = np.arange(counts.sum()) - np.repeat(np.cumsum(counts) - counts, counts)
+    x, rest = np.divmod(number, size[row, 1] * size[row, 2])
+    return corners[row], low[row] + np.stack([x, *np.divmod(rest, size[row, 2])], 1)
 
 
 def _thin(corners, cells, resolution):
-    normal = np.cross(corners[1] - corners[0], corners[2] - corners[0])
-    if not normal.any():
-        return np.zeros(cells.shape[:3], bool)
-    w = int(np.argmax(np.abs(normal)))  # of equal ones the first
-    u, v = (w + 1) % 3, (w + 2) % 3
+    normal = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    rows = np.arange(len(cells))
+    w = np.argmax(np.abs(normal), 1)  # of equal ones the first
     centers = 256 * cells + 128
-    covered = _touches_ranges(corners, cells)
+    covered = normal.any(1) & ((256 * cells <= corners.max(1)) & (corners.min(1) <= 256 * (cells + 1))).all(1)
     # The plane's height in the column, times |n_w|.
-    sign = 1 if normal[w] > 0 else -1
-    rise = sign * (normal[u] * (centers[..., u] - corners[0][u]) + normal[v] * (centers[..., v] - corners[0][v]))
-    height = abs(normal[w]) * corners[0][w] - rise
-    bottom = abs(normal[w]) * 256 * cells[..., w]
-    inside = (bottom <= height) & (height < bottom + abs(normal[w]) * 256)
-    if normal[u] == 0 and normal[v] == 0 and corners[0][w] == 256 * resolution:
-        inside = cells[..., w] == resolution - 1
-    covered &= inside
+    along = np.abs(normal[rows, w])
+    to_center = centers - corners[:, 0]
+    to_center[rows, w] = 0
+    height = along * corners[rows, 0, w] - np.sign(normal[rows, w]) * (normal * to_center).sum(1)
+    bottom = along * 256 * cells[rows, w]
+    inside = (bottom <= height) & (height < bottom + along * 256)
+    is_level = (normal != 0).sum(1) == 1
+    is_top = is_level & (corners[rows, 0, w] == 256 * resolution)
+    covered &= np.where(is_top, cells[rows, w] == resolution - 1, inside)
     for a, b in ((0, 1), (1, 2), (2, 0)):
-        c = 3 - a - b
+        s = np.where(normal[:, 3 - a - b] < 0, -1, 1)
+        is_segment = normal[:, 3 - a - b] == 0
         for i in range(3):
-            edges = [(corners[i], corners[(i + 1) % 3])]
-            if normal[c] == 0:
-                edges.append(edges[0][::-1])
-            for start, end in edges:
-                e = end - start
-                s = -1 if normal[c] < 0 else 1
-                distance = s * (-e[b] * (centers[..., a] - start[a]) + e[a] * (centers[..., b] - start[b]))
-                covered &= distance + 128 * max(abs(e[a]), abs(e[b])) >= 0
+            e = corners[:, (i + 1) % 3] - corners[:, i]
+            from_start = centers - corners[:, i]
+            distance = e[:, a] * from_start[:, b] - e[:, b] * from_start[:, a]
+            reach = 128 * np.maximum(np.abs(e[:, a]), np.abs(e[:, b]))
+            covered &= (s * distance + reach >= 0) & (~is_segment | (reach - distance >= 0))
     return covered
 
 
@@ -68,14 +65,15 @@ def _conservative(corners, cells, _resolution, grown=0):
     """No axis separates the triangle from the box: those of the box, the normal, and products of edges with them. grown:
     lattice units by which boxes are larger on all sides."""
     half = 128 + grown
-    covered = (np.abs(256 * cells + 128 - np.clip(256 * cells + 128, corners.min(0), corners.max(0))) <= half).all(-1)
-    edges = [corners[(i + 1) % 3] - corners[i] for i in range(3)]
+    middles = (256 * cells + 128)[:, None]
+    edges = [corners[:, (i + 1) % 3] - corners[:, i] for i in range(3)]
     units = np.eye(3, dtype=np.int64)
-    for axis in [np.cross(edges[0], edges[1])] + [np.cross(edge, unit) for edge in edges for unit in units]:
-        of_triangle = corners @ axis
-        middle = (256 * cells + 128) @ axis
-        reach = half * np.abs(axis).sum()
-        covered &= (middle - reach <= of_triangle.max()) & (of_triangle.min() <= middle + reach)
+    covered = np.ones(len(cells), bool)
+    for axis in [*np.broadcast_to(units[:, None], (3, *cells.shape)), np.cross(edges[0], edges[1]),
+                 *[np.cross(edge, unit) for edge in edges for unit in units]]:
+        places = ((corners - middles) * axis[:, None]).sum(2)
+        reach = half * np.abs(axis).sum(1)
+        covered &= (-reach <= places.max(1)) & (places.min(1) <= reach)
     return covered
 
 
@@ -84,11 +82,9 @@ def occupied(vertices, faces, resolution, origin, voxel_size, coverage, **option
     lattice = snapped(vertices, origin, voxel_size)
     mask = np.zeros((resolution,) * 3, bool)
     rule = _thin if coverage == "thin" else _conservative
-    for face in np.asarray(faces):
-        cells = _cells_around(lattice[face], resolution)
-        x, y, z = cells[0, 0, 0]
-        part = mask[x:x + cells.shape[0], y:y + cells.shape[1], z:z + cells.shape[2]]
-        part |= rule(lattice[face], cells, resolution, **options)
+    for first in range(0, len(faces), 4096):
+        corners, cells = _candidates(lattice, np.asarray(faces)[first:first + 4096], resolution)
+        mask[tuple(cells[rule(corners, cells, resolution, **options)].T)] = True
     return mask
 
 
