@@ -41,7 +41,7 @@ def samples(count, resolution):
 def main():
     count = int(sys.argv[1]) if len(sys.argv) > 1 else 100
     resolution = int(sys.argv[2]) if len(sys.argv) > 2 else 64
-    zvo.voxelize(*lump(0), resolution=resolution) # makes the device's kernels
+    zvo.voxelize(*lump(0), resolution=resolution)  # makes the device's kernels
     begin, seconds, voxels = time.perf_counter(), 0.0, 0
     for coords, normals, _, of_zvo in samples(count, resolution):
         assert len(coords) == len(normals)

@@ -36,7 +36,8 @@ def main():
             write_scan(scan)
         out = sys.argv[2] if len(sys.argv) > 2 else "points.ply"
         tree = zvo.load(scan, resolution=int(sys.argv[3]) if len(sys.argv) > 3 else 128)
-    print(f"{len(tree)} points, one every {tree.voxel_size:.4g} units, from {tree.points.min(0)} to {tree.points.max(0)}")
+    low, high = tree.points.min(0), tree.points.max(0)
+    print(f"{len(tree)} points, one every {tree.voxel_size:.4g} units, from {low} to {high}")
     tree.save(out)
     print("wrote", out)
 

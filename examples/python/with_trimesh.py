@@ -25,7 +25,7 @@ def voxelize(mesh, **options):
         image = getattr(mesh.visual.material, "image", None) or getattr(mesh.visual.material, "baseColorTexture", None)
         if image is not None:
             options["texture"] = np.asarray(image.convert("RGBA"))
-            options["uv"] = mesh.visual.uv * [1, -1] + [0, 1] # trimesh counts v from the bottom
+            options["uv"] = mesh.visual.uv * [1, -1] + [0, 1]  # trimesh counts v from the bottom
     return zvo.voxelize(mesh.vertices, mesh.faces, normals=mesh.vertex_normals, **options)
 
 

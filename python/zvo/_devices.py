@@ -1,12 +1,13 @@
 # SPDX-License-Identifier: MIT
 from __future__ import annotations
 
-from typing import NamedTuple
+from dataclasses import dataclass
 
 from . import _native
 
 
-class Device(NamedTuple):
+@dataclass(frozen=True)
+class Device:
     """A Vulkan device of this machine."""
 
     index: int

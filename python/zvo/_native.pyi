@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 """The engine. Its arrays are C-contiguous and have exactly these types of elements."""
 
-from typing import Any, Optional
+from typing import Optional
 
 import numpy as np
 import numpy.typing as npt
@@ -46,7 +46,8 @@ def voxelize(device: str, positions: Floats, triangles: Optional[npt.NDArray[np.
 def load(device: str, paths: list[str], up: str, scale: float, point_size: int, time: Optional[float],
          grid: GridArguments) -> Tree: ...
 
-def trace(tree: Tree, origins: Floats, directions: Floats, t_min: float, t_max: float) -> tuple[Any, ...]:
+def trace(tree: Tree, origins: Floats, directions: Floats, t_min: float, t_max: float) -> tuple[
+        npt.NDArray[np.uint8], Floats, npt.NDArray[np.int32], npt.NDArray[np.int8], Floats, npt.NDArray[np.uint8]]:
     """State (M,), t (M,), voxel (M, 3), face (M,), normal (M, 3), color (M, 3)."""
 
 def write_picture(path: str, texels: npt.NDArray[np.uint32]) -> None:

@@ -4,12 +4,11 @@ from __future__ import annotations
 import os
 
 import numpy as np
-import numpy.typing as npt
 
 from . import _arrays, _native
 
 
-def write_picture(path: str | os.PathLike[str], picture: npt.ArrayLike) -> None:
+def write_picture(path: str | os.PathLike[str], picture: _arrays.Input) -> None:
     """Writes a picture as PNG, JPEG or WebP, as the path's extension tells, in place of any file that is there.
 
     picture: (height, width, 3 or 4) uint8 in sRGB, rows from the top, as Tree.render() makes them. Raises ValueError,

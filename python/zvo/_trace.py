@@ -16,24 +16,24 @@ _FOUND, _UNDECIDED = 1, 2
 class Hits:
     """What M rays have found, a row for each."""
 
-    hit: np.ndarray
+    hit: npt.NDArray[np.bool_]
     """(M,) bool: whether the ray enters a voxel, or begins in one."""
-    t: np.ndarray
-    """(M,) float32: where it enters the first voxel, in lengths of its direction; infinity where there is none. Of a ray
-    that begins inside it is t_min, or the least number above 0."""
-    voxel: np.ndarray
+    t: npt.NDArray[np.float32]
+    """(M,) float32: where it enters the first voxel, in lengths of its direction; infinity where there is none. Of a
+    ray that begins inside it is t_min, or the least number above 0."""
+    voxel: npt.NDArray[np.int32]
     """(M, 3) int32: the voxel's cell; -1 where there is none."""
-    face: np.ndarray
+    face: npt.NDArray[np.int8]
     """(M,) int8: the axis of the face by which the ray comes, 0 to 2; 3: it begins inside; -1 where there is none."""
-    normal: np.ndarray
+    normal: npt.NDArray[np.float32]
     """(M, 3) float32: the voxel's normal, of length 1, or 0 where there is none."""
-    color: np.ndarray
+    color: npt.NDArray[np.uint8]
     """(M, 3) uint8: the voxel's colour, sRGB; 0 where there is none."""
-    undecided: np.ndarray
+    undecided: npt.NDArray[np.bool_]
     """(M,) bool: rays that were given up, because the way through the tree took too long; of deep grids alone."""
 
 
-def trace(tree: Tree, origins: npt.ArrayLike, directions: npt.ArrayLike, *, t_min: float = 0.0,
+def trace(tree: Tree, origins: _arrays.Input, directions: _arrays.Input, *, t_min: float = 0.0,
           t_max: float = float("inf")) -> Hits:
     """Traces rays through a tree, exactly: the first voxel is that of a walk through all cells.
 

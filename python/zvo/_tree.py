@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 from __future__ import annotations
 
+import operator
 import os
 from functools import cached_property
 from typing import Literal
@@ -14,8 +15,9 @@ from . import _arrays, _native
 class Tree:
     """The voxels of a cube of resolution^3 cells: an octree or a DAG in a device's memory, which does not change.
 
-    Voxels are in Morton order: the same in every array, on every device. coords, colors and
-    normals are copied from the device when the first of them is asked for; all who ask get the same arrays. Made by voxelize(), load() and compress()."""
+    Voxels are in Morton order: the same in every array, on every device. coords, colors and normals are copied from the
+    device when the first of them is asked for; all who ask get the same arrays. Made by voxelize(), load() and
+    compress()."""
 
     def __init__(self, native: _native.Tree) -> None:
         self._native = native
@@ -28,22 +30,23 @@ class Tree:
         return f"<zvo.Tree: {len(self)} voxels of {self.resolution}^3, {'a DAG' if self.is_dag else 'an octree'}>"
 
     @property
-    def coords(self) -> np.ndarray:
+    def coords(self) -> npt.NDArray[np.int32]:
         """(N, 3) int32: the cells of the voxels, each number from 0 to resolution - 1."""
         return self._voxels[0]
 
     @property
-    def colors(self) -> np.ndarray | None:
+    def colors(self) -> npt.NDArray[np.uint8] | None:
         """(N, 3) uint8: the mean colours of the voxels, sRGB. None without attributes."""
         return self._voxels[1]
 
     @property
-    def normals(self) -> np.ndarray | None:
-        """(N, 3) float32: the mean normals, of length 1, or 0 where there is none, as inside. None without attributes."""
+    def normals(self) -> npt.NDArray[np.float32] | None:
+        """(N, 3) float32: the mean normals, of length 1, or 0 where there is none, as inside. None without
+        attributes."""
         return self._voxels[2]
 
     @property
-    def points(self) -> np.ndarray:
+    def points(self) -> npt.NDArray[np.float32]:
         """(N, 3) float32: the centres of the voxels, world units."""
         return (self.origin.astype(np.float64) + (self.coords + 0.5) * self.voxel_size).astype(np.float32)
 
@@ -53,13 +56,13 @@ class Tree:
         return self._native.resolution
 
     @property
-    def origin(self) -> np.ndarray:
+    def origin(self) -> npt.NDArray[np.float32]:
         """(3,) float32: the grid's lowest corner, world units."""
         return np.array(self._native.origin, np.float32)
 
     @property
     def voxel_size(self) -> float:
-        """Edge of a voxel, world units. Cell c is the cube from origin + c * voxel_size to origin + (c + 1) * voxel_size."""
+        """Edge of a voxel, world units. Cell c is the cube from origin + c * voxel_size on."""
         return self._native.voxel_size
 
     @property
@@ -73,20 +76,20 @@ class Tree:
         return self._native.bytes
 
     def compress(self) -> Tree:
-        """The DAG of the same voxels, in which equal parts of the octree are stored once. Raises ValueError for a DAG and
-        for a filled tree, ZvoError."""
+        """The DAG of the same voxels, in which equal parts of the octree are stored once. Raises ValueError for a DAG
+        and for a filled tree, ZvoError."""
         return Tree(self._native.compress())
 
     def save(self, path: str | os.PathLike[str]) -> None:
         """Writes a file of the kind that the path's extension tells, in place of any file that is there: .zvo, the tree
-        itself; .vox; .nvdb; .glb; .ply, points; or .morton, codes alone. Raises ValueError, ZvoError; warns by ZvoWarning
-        of what the kind of file does not hold."""
+        itself; .vox; .nvdb; .glb; .ply, points; or .morton, codes alone. Raises ValueError, ZvoError; warns by
+        ZvoWarning of what the kind of file does not hold."""
         self._native.save(os.fspath(path))
 
-    def render(self, size: tuple[int, int] = (640, 480), *, camera: str = "auto", eye: npt.ArrayLike | None = None,
-               target: npt.ArrayLike | None = None, fov: float = 45.0,
+    def render(self, size: tuple[int, int] = (640, 480), *, camera: str = "auto", eye: _arrays.Input | None = None,
+               target: _arrays.Input | None = None, fov: float = 45.0,
                integrator: Literal["primary", "path"] = "primary", samples: int | None = None,
-               denoise: bool = False) -> np.ndarray:
+               denoise: bool = False) -> npt.NDArray[np.uint8]:
         """A picture, (height, width, 4) uint8: sRGB, and 255 for alpha; rows from the top.
 
         size: width and height, pixels.
@@ -98,25 +101,27 @@ class Tree:
         denoise: whether the noise of paths is filtered.
 
         Raises ValueError, ZvoError."""
-        width, height = size
+        width, height = map(operator.index, size)
         if not (1 <= width <= 16384 and 1 <= height <= 16384):
             raise ValueError(f"size: expected a width and a height from 1 to 16384, got {size}")
         if (eye is None) != (target is None):
             raise ValueError("eye and target: expected both or neither")
-        view = [] if eye is None else [*_point("eye", eye), *_point("target", target), fov]
-        count = (64 if integrator == "path" else 4) if samples is None else samples
+        view = []
+        if eye is not None and target is not None:
+            view = [*_point("eye", eye), *_point("target", target), fov]
+        count = (64 if integrator == "path" else 4) if samples is None else operator.index(samples)
         if count < 1:
             raise ValueError(f"samples: expected 1 or more, got {count}")
         texels = self._native.render(width, height, camera, view, integrator, count, denoise)
         return texels.view(np.uint8).reshape(height, width, 4)
 
     @cached_property
-    def _voxels(self) -> tuple[np.ndarray, np.ndarray | None, np.ndarray | None]:
+    def _voxels(self) -> tuple[npt.NDArray[np.int32], npt.NDArray[np.uint8] | None, npt.NDArray[np.float32] | None]:
         return self._native.voxels()
 
 
-def _point(name: str, value: npt.ArrayLike) -> list[float]:
+def _point(name: str, value: _arrays.Input) -> list[float]:
     point = _arrays.as_array(name, value)
     if point.shape != (3,):
         raise ValueError(f"{name}: expected three numbers, got an array of shape {point.shape}")
-    return _arrays.elements(name, point, np.float32).tolist()
+    return [float(number) for number in _arrays.elements(name, point, np.float32)]

@@ -1,12 +1,12 @@
 # SPDX-License-Identifier: MIT
 from __future__ import annotations
 
+import operator
 import os
 from collections.abc import Sequence
-from typing import Literal
+from typing import Literal, Union
 
 import numpy as np
-import numpy.typing as npt
 
 from . import _arrays, _native
 from ._devices import name_of
@@ -14,13 +14,13 @@ from ._tree import Tree
 
 Fill = Literal["none", "solid", "parity", "robust"]
 Coverage = Literal["thin", "conservative"]
-Path = "str | os.PathLike[str]"
+Path = Union[str, "os.PathLike[str]"]
 
 
-def voxelize(vertices: npt.ArrayLike, faces: npt.ArrayLike | None = None, *, colors: npt.ArrayLike | None = None,
-             normals: npt.ArrayLike | None = None, uv: npt.ArrayLike | None = None,
-             texture: npt.ArrayLike | None = None, resolution: int = 512, fill: Fill = "none",
-             coverage: Coverage = "thin", bounds: npt.ArrayLike | None = None, attributes: bool = True,
+def voxelize(vertices: _arrays.Input, faces: _arrays.Input | None = None, *, colors: _arrays.Input | None = None,
+             normals: _arrays.Input | None = None, uv: _arrays.Input | None = None,
+             texture: _arrays.Input | None = None, resolution: int = 512, fill: Fill = "none",
+             coverage: Coverage = "thin", bounds: _arrays.Input | None = None, attributes: bool = True,
              device: str | int | None = None) -> Tree:
     """Voxelizes triangles, or points.
 
@@ -44,7 +44,7 @@ def voxelize(vertices: npt.ArrayLike, faces: npt.ArrayLike | None = None, *, col
     count = len(positions)
     triangles = None if faces is None else _arrays.indices("faces", faces, count)
 
-    def of_vertices(name: str, value: npt.ArrayLike | None, columns: int) -> np.ndarray | None:
+    def of_vertices(name: str, value: _arrays.Input | None, columns: int) -> _arrays.AnyArray | None:
         return None if value is None else _arrays.rows(name, value, columns, np.float32, count, "vertices")
 
     if texture is not None and uv is None:
@@ -57,9 +57,9 @@ def voxelize(vertices: npt.ArrayLike, faces: npt.ArrayLike | None = None, *, col
 
 
 def load(path: Path | Sequence[Path], *, resolution: int | None = None, fill: Fill = "none",
-         coverage: Coverage = "thin", bounds: npt.ArrayLike | None = None, attributes: bool = True, up: str = "y",
+         coverage: Coverage = "thin", bounds: _arrays.Input | None = None, attributes: bool = True, up: str = "y",
          scale: float = 1.0, point_size: int = 1, time: float | None = None, device: str | int | None = None) -> Tree:
-    """Reads a file: voxels of .zvo and .vox, or a mesh, a cloud of points or a scene, which is voxelized (docs/input.md).
+    """Reads a file: the voxels of .zvo and .vox, or a mesh, points or a scene, which is voxelized (docs/input.md).
 
     path: of a file, or of several that make one scene.
     resolution: None: that of the scene file, or else 512.
@@ -73,22 +73,23 @@ def load(path: Path | Sequence[Path], *, resolution: int | None = None, fill: Fi
         raise ValueError("path: expected at least one")
     if not (0 < scale < float("inf")):
         raise ValueError(f"scale: expected a number above 0, got {scale}")
-    if not 1 <= point_size <= 16:
-        raise ValueError(f"point_size: expected a whole number from 1 to 16, got {point_size}")
+    edge = operator.index(point_size)
+    if not 1 <= edge <= 16:
+        raise ValueError(f"point_size: expected a whole number from 1 to 16, got {edge}")
     if time is not None and not (0 <= time < float("inf")):
         raise ValueError(f"time: expected seconds from 0 on, got {time}")
-    return Tree(_native.load(name_of(device), [os.fspath(one) for one in paths], up, scale, point_size, time,
+    return Tree(_native.load(name_of(device), [os.fspath(one) for one in paths], up, scale, edge, time,
                              _grid(resolution, fill, coverage, bounds, attributes)))
 
 
-def _grid(resolution: int | None, fill: str, coverage: str, bounds: npt.ArrayLike | None,
+def _grid(resolution: int | None, fill: str, coverage: str, bounds: _arrays.Input | None,
           attributes: bool) -> _native.GridArguments:
-    if resolution is not None and (not 2 <= resolution <= 1 << 17 or resolution & (resolution - 1) != 0):
-        raise ValueError(f"resolution: expected a power of two from 2 to 131072, got {resolution}")
+    edge = None if resolution is None else operator.index(resolution)
+    if edge is not None and (not 2 <= edge <= 1 << 17 or edge & (edge - 1) != 0):
+        raise ValueError(f"resolution: expected a power of two from 2 to 131072, got {edge}")
     corners = None if bounds is None else _arrays.rows("bounds", bounds, 3, np.float32, 2, "the corners")
     if corners is not None and not (np.isfinite(corners).all() and (corners[0] <= corners[1]).all()
                                     and (corners[0] < corners[1]).any()):
         raise ValueError("bounds: expected the low and the high corner of a box")
-    return _native.GridArguments(depth=None if resolution is None else int(resolution).bit_length() - 1,
-                                 coverage=coverage, fill=fill,
+    return _native.GridArguments(depth=None if edge is None else edge.bit_length() - 1, coverage=coverage, fill=fill,
                                  bounds=None if corners is None else corners.ravel().tolist(), attributes=attributes)

@@ -72,6 +72,6 @@ def write_ply(path, vertices, faces, colors=None):
     lists["count"], lists["indices"] = 3, faces
     header = "".join(f"property {names[kind]} {name}\n" for name, kind in fields)
     with open(path, "wb") as file:
-        file.write((f"ply\nformat binary_little_endian 1.0\nelement vertex {len(rows)}\n{header}element face {len(lists)}\n"
-                    "property list uchar int vertex_indices\nend_header\n").encode())
+        file.write((f"ply\nformat binary_little_endian 1.0\nelement vertex {len(rows)}\n{header}"
+                    f"element face {len(lists)}\nproperty list uchar int vertex_indices\nend_header\n").encode())
         file.write(rows.tobytes() + lists.tobytes())

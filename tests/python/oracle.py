@@ -62,8 +62,8 @@ def _thin(corners, cells, resolution):
 
 
 def _conservative(corners, cells, _resolution, grown=0):
-    """No axis separates the triangle from the box: those of the box, the normal, and products of edges with them. grown:
-    lattice units by which boxes are larger on all sides."""
+    """No axis separates the triangle from the box: those of the box, the normal, and products of edges with them.
+    grown: lattice units by which boxes are larger on all sides."""
     half = 128 + grown
     middles = (256 * cells + 128)[:, None]
     edges = [corners[:, (i + 1) % 3] - corners[:, i] for i in range(3)]
@@ -94,8 +94,8 @@ def voxels(*arguments):
 
 
 def first_hits(coords, origin, voxel_size, origins, directions):
-    """For each ray, by every voxel, in double precision: the row in coords of the voxel that it enters first, or -1, when,
-    and how clear that is: the least difference of times that decides about it."""
+    """For each ray, by every voxel, in double precision: the row in coords of the voxel that it enters first, or -1;
+    when; and how clear that is, the least difference of times that decides about it."""
     low = origin.astype(np.float64) + coords * voxel_size
     rows, times, margins = [], [], []
     with np.errstate(divide="ignore", invalid="ignore"):

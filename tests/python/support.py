@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""What the tests of the Python package share. ZVO_PROGRAM: the command line, to compare with; ZVO_SOURCES: the project."""
+"""What the tests of the Python package share. $ZVO_PROGRAM names the command line, to compare with."""
 
 import os
 import pathlib
@@ -9,7 +9,7 @@ import unittest
 
 import numpy as np
 
-SOURCES = pathlib.Path(os.environ.get("ZVO_SOURCES", pathlib.Path(__file__).resolve().parents[2]))
+SOURCES = pathlib.Path(__file__).resolve().parents[2]
 SCENES = SOURCES / "scenes"
 
 

@@ -103,6 +103,13 @@ class Errors(support.Case):
         self.expect(r"coverage thick: expected one of", coverage="thick")
         self.expect(r"bounds: expected the low and the high corner", bounds=[[1, 1, 1], [0, 2, 2]])
 
+    def test_numbers_that_are_not_whole(self):
+        with self.assertRaisesRegex(TypeError, "cannot be interpreted as an integer"):
+            zvo.voxelize(*meshes.cube(), resolution=8.0)
+        tree = zvo.voxelize(*meshes.cube(), resolution=np.int64(8))
+        with self.assertRaisesRegex(TypeError, "cannot be interpreted as an integer"):
+            tree.render((8.5, 8))
+
     def test_tensors_on_devices(self):
         class Far(Tensor):
             def __dlpack__(self, stream=None):

@@ -93,7 +93,8 @@ class Trees(support.Case):
         for kind in ("ply", "vox", "morton", "glb", "nvdb"):
             tree.save(self.folder / f"knot.{kind}")
             support.run_zvo("convert", self.folder / "cli.zvo", "-o", self.folder / f"cli.{kind}")
-            self.assertEqual((self.folder / f"knot.{kind}").read_bytes(), (self.folder / f"cli.{kind}").read_bytes(), kind)
+            ours, theirs = (self.folder / f"{name}.{kind}" for name in ("knot", "cli"))
+            self.assertEqual(ours.read_bytes(), theirs.read_bytes(), kind)
 
     def test_files_are_read_again(self):
         tree = zvo.load(support.SCENES / "knot.glb", resolution=64)
@@ -103,6 +104,17 @@ class Trees(support.Case):
             self.expect_equal(getattr(again, name), getattr(tree, name))
         tree.save(self.folder / "knot.vox")
         self.assertEqual(len(zvo.load(self.folder / "knot.vox")), len(tree))
+
+    def test_packed_attributes_are_read(self):
+        support.run_zvo("build", support.SCENES / "knot.glb", "-o", self.folder / "packed.zvo", "--resolution", 64,
+                        "--attributes", "block", "--structure", "svo")
+        packed = zvo.load(self.folder / "packed.zvo")
+        whole = zvo.load(support.SCENES / "knot.glb", resolution=64)
+        self.assertLess(packed.bytes, whole.bytes / 2)
+        self.expect_equal(packed.coords, whole.coords)
+        self.assertLess(np.abs(packed.colors.astype(int) - whole.colors).mean(), 5)
+        hits = zvo.trace(packed, packed.points[:9], np.ones((9, 3)))
+        self.expect_equal(hits.color, packed.colors[:9])
 
     def test_filled_trees_are_read_again(self):
         tree = zvo.voxelize(*meshes.sphere(), resolution=32, fill="solid")
@@ -145,7 +157,7 @@ class Threads(support.Case):
                 hits = zvo.trace(tree, tree.points[:5], np.ones((5, 3)))
                 if not np.array_equal(tree.coords, wanted[i % 8]) or not hits.hit.all():
                     faults.append(i)
-                del tree # while others work
+                del tree  # while others work
 
         threads = [threading.Thread(target=work, args=(2 * i,)) for i in range(4)]
         for thread in threads:

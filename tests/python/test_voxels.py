@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: MIT
 """Voxels of arrays and files: those of the command line, and of an oracle in NumPy."""
 
+import subprocess
+import sys
 import unittest
 import warnings
 
@@ -158,6 +160,11 @@ class Voxelize(support.Case):
         with self.assertWarnsRegex(zvo.ZvoWarning, r"nonfinite") as caught:
             zvo.voxelize(vertices, faces, resolution=16)
         self.assertEqual(caught.filename.rsplit("/", 1)[-1], "test_voxels.py")
+
+    def test_nothing_is_told_but_by_warnings(self):
+        code = "import zvo; zvo.voxelize([[0, 0, 0]], [[0, 0, 0]], resolution=8)"
+        result = subprocess.run([sys.executable, "-W", "ignore", "-c", code], capture_output=True, text=True)
+        self.assertEqual((result.returncode, result.stdout, result.stderr), (0, "", ""))
 
 
 if __name__ == "__main__":
