@@ -40,7 +40,7 @@ def rows(name: str, value: Input, columns: int, dtype: npt.DTypeLike = np.float3
          of: str = "") -> AnyArray:
     """The array of a value of shape (count, columns), or (any number, columns). of: what `count` is the number of."""
     array = as_array(name, value)
-    if array.shape == (0,): # of an empty list
+    if array.shape == (0,):  # of an empty list
         array = array.reshape(0, columns)
     if array.ndim != 2 or array.shape[1] != columns:
         raise ValueError(f"{name}: expected an array of shape (N, {columns}), got {array.shape}")
