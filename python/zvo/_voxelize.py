@@ -38,8 +38,8 @@ def voxelize(vertices: _arrays.Input, faces: _arrays.Input | None = None, *, col
     attributes: False: no colours and normals, which takes less time and memory.
     device: index or part of a name in devices(), or "cpu". None: the best one.
 
-    The arrays are not needed after the call. Arrays of float32, and uint32 of faces, are read as they are; others are
-    converted, in a copy. Raises ValueError, ZvoError; warns by ZvoWarning."""
+    The arrays must not change during the call, and are not needed after it. Arrays of float32, and of uint32 for faces,
+    are read as they are; others are converted, in a copy. Raises ValueError, ZvoError; warns by ZvoWarning."""
     positions = _arrays.rows("vertices", vertices, 3)
     count = len(positions)
     triangles = None if faces is None else _arrays.indices("faces", faces, count)
