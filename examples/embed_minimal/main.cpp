@@ -35,7 +35,7 @@ void embed(const host::Options& options)
     std::optional<zvo::DeviceReport> report;
     for (VkPhysicalDevice candidate : instance.physicalDevices(options.device))
     {
-        report = zvo::query(instance.getProcAddr(), instance.handle(), candidate);
+        report = zvo::query(instance.getProcAddr(), instance.handle(), candidate, host::Instance::kApiVersion);
         if (report->usable())
         {
             break;

@@ -46,7 +46,7 @@ void embed(const host::Options& options)
     const auto camera = zvo::CameraInfo::lookAt({1.5, 2, 3.5}, {0, 0, 0}, 26 * (std::numbers::pi / 180));
     Push push{};
     push.tree = tree.address();
-    push.camera = zvo::cameraRays(camera, tree.info().grid, kSize.height);
+    push.camera = zvo::cameraRays(camera, tree.info().grid, kSize.width, kSize.height);
 
     VkCommandBuffer commands = device.makeCommands();
     for (std::uint32_t picture = 0; picture < 2; ++picture)

@@ -41,6 +41,7 @@ struct ContextInfo
     MemoryCallbacks memory = {};                                 // in place of vkAllocateMemory
     std::uint64_t memory_budget_bytes = UINT64_MAX;              // of device memory that zvo holds
     LogCallback log = {};
+    DVec3 up = {0, 1, 0}; // of the world, any length: where the simple sky and maps of light have their zenith
     std::uint32_t subgroup_size = 0; // of kernels, from DeviceReport::min_subgroup_size to max_subgroup_size, a power
                                      // of two; takes OptionalFeatures::subgroup_sizes. 0: the driver's, or 32 where
                                      // it would take more and can be asked

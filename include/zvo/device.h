@@ -37,10 +37,11 @@ struct DeviceReport
 };
 
 /// Reports whether zvo can use a physical device, and if not, every reason. Creates nothing, and does not throw for a
-/// device that zvo cannot use. The instance must have been created for Vulkan 1.3 (VkApplicationInfo::apiVersion).
-/// Throws Error{Usage} for null.
+/// device that zvo cannot use. instance_api_version: for which Vulkan the instance was created
+/// (VkApplicationInfo::apiVersion), which Vulkan cannot be asked; a version before 1.3 is a reason. Throws Error{Usage}
+/// for null.
 ZVO_API DeviceReport query(PFN_vkGetInstanceProcAddr get_instance_proc_addr, VkInstance instance,
-                           VkPhysicalDevice physical_device);
+                           VkPhysicalDevice physical_device, std::uint32_t instance_api_version);
 
 /// Features that zvo does not require, but uses where they are enabled. No result depends on them. Ask only for those
 /// that are listed in DeviceReport::present.
@@ -88,5 +89,11 @@ struct FeatureStorage
 /// Declare info.pNext and info.pEnabledFeatures to zvo. Whether the device supports the features is not checked here:
 /// query() tells.
 ZVO_API void patchFeatures(VkDeviceCreateInfo& info, FeatureStorage& storage, const OptionalFeatures& optional = {});
+
+/// The same for hosts whose wrapper makes the VkDeviceCreateInfo, of a chain of feature structs and of core features
+/// that it lets them set. chain, core: what the wrapper is to get as pNext and as *pEnabledFeatures. core: null: it
+/// gives none. Declare both to zvo.
+ZVO_API void patchFeatures(const void*& chain, FeatureStorage& storage, VkPhysicalDeviceFeatures* core = nullptr,
+                           const OptionalFeatures& optional = {});
 
 } // namespace zvo

@@ -20,17 +20,19 @@ struct SunInfo
 };
 
 /// The sun of `zvo render` in a direction: the lower it is, the redder, and below the horizon it gives no light. Throws
-/// Error{Usage} for a direction without a length.
-ZVO_API SunInfo sunlight(const DVec3& direction);
+/// Error{Usage} for a direction without a length. up: ContextInfo's.
+ZVO_API SunInfo sunlight(const DVec3& direction, const DVec3& up = {0, 1, 0});
 
 /// A picture of all directions in equirectangular form: up is +y, the middle is -z, and +x is a quarter of the width to
-/// the right of it. Its texels are copied: the array is not needed after the call.
+/// the right of it. With another ContextInfo::up all of it is turned by the least angle that brings +y there: in a
+/// world whose z is up, the middle is +y. In a left-handed world it is mirrored. Its texels are copied: the array is
+/// not needed after the call.
 struct EnvironmentMapInfo
 {
     std::uint32_t width = 0; // at most 16384, as height; texels at most 2^25
     std::uint32_t height = 0;
     std::span<const Vec3> texels; // [width * height] rows from the top, linear radiance in the primaries of sRGB
-    double turn = 0.0;            // radians by which the map is turned about y, counterclockwise as seen from above
+    double turn = 0.0;            // radians by which the map is turned about up, counterclockwise as seen from above
     float strength = 1.0F;        // factor
     float background_blur = 0.0F; // radians, to pi: the camera sees the map blurred by this; its light stays
 };

@@ -17,18 +17,37 @@ namespace zvo
 
 class RadianceCache; // zvo/radiance_cache.h
 
-/// The position and direction of a picture's view, in world space. Pixels are square.
+/// What a host's projection does beside projecting, for CameraInfo::ofMatrices().
+struct ClipSpace
+{
+    bool y_up = false;           // a viewport of negative height: +1 is the picture's upper edge, -1 in Vulkan's own
+    bool reversed_depth = false; // 1 is near, and 0 far; only orthographic cameras need it
+};
+
+/// The position and direction of a picture's view, in world space.
 struct CameraInfo
 {
     DVec3 position = {0, 0, 0};
     DVec3 forward = {0, 0, -1}; // any length; up need not be orthogonal to it
     DVec3 up = {0, 1, 0};
     bool orthographic = false;
-    double vertical_fov = 0.7; // radians, inside (0, pi); perspective
+    double vertical_fov = 0.7; // radians, inside (0, pi); perspective, of a picture whose middle is not shifted
     double half_height = 1.0;  // world units; orthographic
+    double aspect = 0.0;       // what the picture shows in width over what it shows in height; 0: pixels are square
+    DVec2 shift = {0, 0};      // of the picture's middle to its right and up, in halves of its width and height
+    bool mirrored = false;     // right is that of a left-handed world: cross(up, forward)
 
-    /// The view from eye towards target, with y up (z for a view straight up or down), as `zvo render --camera` takes
-    /// it, where the field of view is in degrees.
+    /// The camera of matrices by which the host draws, in columns as Mat4: what it shows at a pixel is what a
+    /// rasterizer shows there. view: from world to view space, of either handedness, with any axis up. projection: from
+    /// view to clip space, perspective or orthographic, with or without jitter, off-centre, mirrored, infinite, and
+    /// with depth of any kind. Rays begin at the eye, those of an orthographic camera in its near plane. Throws
+    /// Error{Usage} for numbers that are not finite, for a matrix that cannot be inverted, and for one that shears:
+    /// whose pictures' rows and columns are not at right angles.
+    [[nodiscard]] static ZVO_API CameraInfo ofMatrices(const DMat4& view, const DMat4& projection,
+                                                       const ClipSpace& clip = {});
+
+    /// The right-handed view from eye towards target, with y up (z for a view straight up or down), as `zvo render
+    /// --camera` takes it, where the field of view is in degrees.
     [[nodiscard]] static ZVO_API CameraInfo lookAt(const DVec3& eye, const DVec3& target, double vertical_fov);
 };
 
@@ -37,7 +56,7 @@ struct TraceInfo
 {
     View view = View::Color;
     bool shadows = true;               // View::Color: a ray to the sun
-    DVec3 to_sun = {-0.6, 0.75, 0.45}; // direction, any length
+    DVec3 to_sun = {-0.6, 0.75, 0.45}; // direction in the world, any length
     float sun = 2.2F;                  // strength
     float exposure = 1.0F;
     std::uint32_t occlusion_rays = 0;  // View::Color: rays for each hit that find how much sky it sees; at most 64
@@ -170,7 +189,7 @@ private:
 };
 
 /// A camera's rays as zvo/trace.glsl takes them (zvo_CameraRays, scalar layout): the same that Tracer::trace() follows
-/// for a picture that is height pixels high, in a tree of that grid.
+/// for a picture of width x height pixels, in a tree of that grid.
 struct CameraRays
 {
     Vec3 origin{};
@@ -180,6 +199,7 @@ struct CameraRays
 };
 
 /// Throws Error{Usage} as Tracer::trace(), and for grids as TreeBuild.
-ZVO_API CameraRays cameraRays(const CameraInfo& camera, const GridInfo& grid, std::uint32_t height);
+ZVO_API CameraRays cameraRays(const CameraInfo& camera, const GridInfo& grid, std::uint32_t width,
+                              std::uint32_t height);
 
 } // namespace zvo

@@ -16,6 +16,7 @@ namespace zvo
 using Vec2 = std::array<float, 2>;
 using Vec3 = std::array<float, 3>;
 using Vec4 = std::array<float, 4>;
+using DVec2 = std::array<double, 2>;
 using DVec3 = std::array<double, 3>;
 
 /// An affine transform of columns: element (row, column) is [4 * column + row], the last row is (0, 0, 0, 1).

@@ -128,7 +128,7 @@ enum
 
 /// zvo::query(): ZVO_OK for devices that will not do, too.
 ZVO_C_API ZvoResult zvoQuery(PFN_vkGetInstanceProcAddr get_instance_proc_addr, VkInstance instance,
-                             VkPhysicalDevice physical_device, ZvoDeviceReport** report);
+                             VkPhysicalDevice physical_device, uint32_t instance_api_version, ZvoDeviceReport** report);
 ZVO_C_API void zvoDeviceReportDestroy(ZvoDeviceReport* report); // not that of a context
 ZVO_C_API ZvoResult zvoDeviceReportInfo(const ZvoDeviceReport* report, ZvoDeviceInfo* info);
 
@@ -154,6 +154,10 @@ ZVO_C_API void zvoFeatureStorageDestroy(ZvoFeatureStorage* storage);
 /// zvo::patchFeatures(). optional: null: none.
 ZVO_C_API ZvoResult zvoPatchFeatures(VkDeviceCreateInfo* info, ZvoFeatureStorage* storage,
                                      const ZvoOptionalFeatures* optional);
+
+/// zvo::patchFeatures() of a chain. core, optional: null: none.
+ZVO_C_API ZvoResult zvoPatchFeatureChain(const void** chain, ZvoFeatureStorage* storage, VkPhysicalDeviceFeatures* core,
+                                         const ZvoOptionalFeatures* optional);
 
 // zvo::Context.
 
@@ -181,11 +185,13 @@ typedef struct ZvoContextInfo
     uint32_t timed_passes_per_frame;
     uint32_t subgroup_size;
     const char* tuning; // may be null
+    double up[3];
 } ZvoContextInfo;
 
 #define ZVO_CONTEXT_INFO_INIT                                                                                          \
     ZVO_STRUCT_INIT(ZvoContextInfo, NULL, VK_NULL_HANDLE, VK_NULL_HANDLE, VK_NULL_HANDLE, 0, 0, NULL, NULL, 0, 0,      \
-                    NULL, NULL, NULL, VK_NULL_HANDLE, {NULL, NULL, NULL}, UINT64_MAX, {NULL, NULL}, 0, 0, NULL)
+                    NULL, NULL, NULL, VK_NULL_HANDLE, {NULL, NULL, NULL}, UINT64_MAX, {NULL, NULL}, 0, 0, NULL,        \
+                    {0, 1, 0})
 
 typedef struct ZvoMemoryUse
 {
@@ -495,8 +501,8 @@ typedef struct ZvoSunInfo
 
 #define ZVO_SUN_INFO_INIT ZVO_STRUCT_INIT(ZvoSunInfo, {-0.6, 0.75, 0.45}, {2.2F, 2.2F * 0.93, 2.2F * 0.82})
 
-/// zvo::sunlight().
-ZVO_C_API ZvoResult zvoSunlight(const double direction[3], ZvoSunInfo* sun);
+/// zvo::sunlight(). up: ZvoContextInfo's.
+ZVO_C_API ZvoResult zvoSunlight(const double direction[3], const double up[3], ZvoSunInfo* sun);
 
 /// As zvo::EnvironmentMapInfo.
 typedef struct ZvoEnvironmentMapInfo
@@ -530,10 +536,13 @@ typedef struct ZvoCameraInfo
     double vertical_fov; // radians
     double half_height;  // world units
     VkBool32 orthographic;
-    uint32_t reserved;
+    VkBool32 mirrored;
+    double aspect;
+    double shift[2];
 } ZvoCameraInfo;
 
-#define ZVO_CAMERA_INFO_INIT ZVO_STRUCT_INIT(ZvoCameraInfo, {0, 0, 0}, {0, 0, -1}, {0, 1, 0}, 0.7, 1, VK_FALSE, 0)
+#define ZVO_CAMERA_INFO_INIT                                                                                           \
+    ZVO_STRUCT_INIT(ZvoCameraInfo, {0, 0, 0}, {0, 0, -1}, {0, 1, 0}, 0.7, 1, VK_FALSE, VK_FALSE, 0, {0, 0})
 
 /// As zvo::TraceInfo.
 typedef struct ZvoTraceInfo
@@ -628,7 +637,12 @@ ZVO_C_API ZvoResult zvoTracerForgetSamples(ZvoTracer* tracer);
 /// zvo::CameraInfo::lookAt(). camera: its size is set.
 ZVO_C_API ZvoResult zvoCameraLookAt(const double eye[3], const double target[3], double vertical_fov,
                                     ZvoCameraInfo* camera);
-ZVO_C_API ZvoResult zvoCameraRays(const ZvoCameraInfo* camera, const ZvoGrid* grid, uint32_t height,
+
+/// zvo::CameraInfo::ofMatrices(). view, projection: columns. y_up, reversed_depth: zvo::ClipSpace. camera: its size is
+/// set.
+ZVO_C_API ZvoResult zvoCameraOfMatrices(const double view[16], const double projection[16], VkBool32 y_up,
+                                        VkBool32 reversed_depth, ZvoCameraInfo* camera);
+ZVO_C_API ZvoResult zvoCameraRays(const ZvoCameraInfo* camera, const ZvoGrid* grid, uint32_t width, uint32_t height,
                                   ZvoCameraRays* rays);
 
 // zvo::RadianceCache.

@@ -23,7 +23,6 @@
 GPU_NAMESPACE_BEGIN
 
 GPU_BUFFER(vec4, 8);
-GPU_BUFFER(CameraRays, 4);
 
 const uint kDenoiseLevels = 5u;
 const uint kDenoiseTile = 8u; // pixels along the edge of a workgroup's tile
@@ -76,7 +75,7 @@ struct DenoiseReprojectParams // push constants of denoise/reproject: a thread a
     GPU_CONST_PTR(vec4) old_light; // of the earlier picture, like the next three
     GPU_CONST_PTR(float) old_samples;
     GPU_CONST_PTR(DenoiseGuide) old_guides;
-    GPU_CONST_PTR(CameraRays) cameras; // [2] of this and the earlier picture
+    GPU_CONST_PTR(PictureCamera) cameras; // [2] of this and the earlier picture
     uint width;
     uint height;
     float history_max; // samples of the earlier picture that count at most

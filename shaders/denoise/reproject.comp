@@ -20,12 +20,13 @@ void main()
     Guide guide = loadGuide(params.guides, i);
     if (guide.coverage == 0.0)
         return;
-    CameraRays now = params.cameras.data[0];
-    CameraRays before = params.cameras.data[1];
+    CameraRays now = params.cameras.data[0].rays;
+    PictureCamera camera_before = params.cameras.data[1];
+    CameraRays before = camera_before.rays;
     ivec2 pixel = ivec2(i % size.x, i / size.x);
     vec3 place = now.origin - before.origin +
                  placeAt(pixel, guide.depth, size, kOrthographic, now.forward, now.half_pixel_x, now.half_pixel_y);
-    vec2 old_pixel = pixelOfPlace(place, size, kOldOrthographic, before);
+    vec2 old_pixel = pixelOfPlace(place, size, kOldOrthographic, camera_before);
     ivec2 low = ivec2(floor(clamp(old_pixel, vec2(-2.0), vec2(size) + 1.0)));
     vec2 part = old_pixel - vec2(low);
 

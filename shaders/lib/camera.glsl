@@ -37,12 +37,13 @@ uvec2 unpackTile(uint tile)
 
 // Coordinates in pixels, whole numbers at the pixels' centres, of a place from the camera's origin; far outside if it
 // is behind the camera.
-vec2 pixelOfPlace(vec3 place, uvec2 size, bool orthographic, CameraRays camera)
+vec2 pixelOfPlace(vec3 place, uvec2 size, bool orthographic, PictureCamera camera)
 {
-    float depth = dot(place, camera.forward);
-    vec3 offset = orthographic ? place : place / depth;
-    vec2 n = vec2(dot(offset, camera.half_pixel_x) / dot(camera.half_pixel_x, camera.half_pixel_x),
-                  dot(offset, camera.half_pixel_y) / dot(camera.half_pixel_y, camera.half_pixel_y));
+    CameraRays rays = camera.rays;
+    float depth = dot(place, camera.axis);
+    vec3 offset = orthographic ? place : place / depth - (rays.forward - camera.axis);
+    vec2 n = vec2(dot(offset, rays.half_pixel_x) / dot(rays.half_pixel_x, rays.half_pixel_x),
+                  dot(offset, rays.half_pixel_y) / dot(rays.half_pixel_y, rays.half_pixel_y));
     return !orthographic && depth <= 0.0 ? vec2(-1e6) : 0.5 * (n + vec2(size)) - 0.5;
 }
 

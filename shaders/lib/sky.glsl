@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A simple sky for pictures without an environment: y is up.
+// A simple sky for pictures without an environment.
 #ifndef ZVO_SHADERS_LIB_SKY_GLSL
 #define ZVO_SHADERS_LIB_SKY_GLSL
 
@@ -23,17 +23,18 @@ float glowOf(float cosine)
 // horizon is ground, in haze far away.
 vec3 skyRadiance(Sky sky, vec3 direction)
 {
-    float away = 1.0 - abs(direction.y); // 1 at the horizon
+    float height = dot(direction, sky.up);
+    float away = 1.0 - abs(height); // 1 at the horizon
     vec3 glow = glowOf(dot(direction, sky.to_sun)) * sky.glow;
     vec3 above = mix(sky.zenith, sky.horizon, away * away) + mix(kGlowAbove, 1.0, away * away * away * away) * glow;
-    vec3 below = mix(sky.ground, sky.horizon + glow, kHaze * exp(kHazeDepth * min(direction.y, 0.0)));
-    return direction.y > 0.0 ? above : below;
+    vec3 below = mix(sky.ground, sky.horizon + glow, kHaze * exp(kHazeDepth * min(height, 0.0)));
+    return height > 0.0 ? above : below;
 }
 
 // Irradiance / pi that a surface with this normal (length 1) receives from the sky, without the sun.
 vec3 skyAmbient(Sky sky, vec3 normal)
 {
-    return mix(sky.below, sky.above, 0.5 + 0.5 * normal.y);
+    return mix(sky.below, sky.above, 0.5 + 0.5 * dot(normal, sky.up));
 }
 
 float sunDisc(vec3 direction, vec3 to_sun)

@@ -63,9 +63,9 @@ void main()
         vec2 size = vec2(params.map.width, params.map.height);
         vec2 y = cos(kPi * vec2(begin.y, end.y));
         float light = (kEvenly ? 1.0 : meanLuminance(begin * size, end * size)) * (y.x - y.y) * 2.0 * kPi / float(cells.x);
-        vec3 corners[5] = vec3[](mapDirection(begin.x, y.x, params.map.turn), mapDirection(end.x, y.x, params.map.turn),
-                                 mapDirection(begin.x, y.y, params.map.turn), mapDirection(end.x, y.y, params.map.turn),
-                                 mapDirection(0.5 * (begin.x + end.x), 0.5 * (y.x + y.y), params.map.turn));
+        vec3 corners[5] = vec3[](mapDirection(begin.x, y.x, params.map), mapDirection(end.x, y.x, params.map),
+                                 mapDirection(begin.x, y.y, params.map), mapDirection(end.x, y.y, params.map),
+                                 mapDirection(0.5 * (begin.x + end.x), 0.5 * (y.x + y.y), params.map));
         vec3 up = vec3(0.0);
         vec3 down = vec3(0.0);
         [[unroll]] for (uint k = 0u; k < 5u; ++k)

@@ -38,14 +38,14 @@ vec3 chooseMapDirection(Environment_ConstPtr environment, uint normal, uvec2 cho
     uint row = cell / map.cells_x;
     vec2 y = cellEdges(map, row);
     density = cellDensity(map, probability, y);
-    return mapDirection((float(cell % map.cells_x) + u.x) / float(map.cells_x), mix(y.x, y.y, u.y), map.turn);
+    return mapDirection((float(cell % map.cells_x) + u.x) / float(map.cells_x), mix(y.x, y.y, u.y), map);
 }
 
 // The density with which chooseMapDirection() chooses a direction (length 1).
 float mapDensity(Environment_ConstPtr environment, uint normal, vec3 direction)
 {
     EnvironmentMap map = environment.data[0].map;
-    vec2 place = mapCoordinates(direction, map.turn) * vec2(map.cells_x, map.cells_y);
+    vec2 place = mapCoordinates(direction, map) * vec2(map.cells_x, map.cells_y);
     uint column = min(uint(place.x), map.cells_x - 1u);
     uint row = min(uint(place.y), map.cells_y - 1u);
     float probability =

@@ -7,20 +7,27 @@
 
 const float kPi = 3.14159265358979;
 
-// The direction (length 1) at u in [0, 1] across the map, with this y.
-vec3 mapDirection(float u, float y, vec2 turn)
+// The direction (length 1) at u in [0, 1] across a map, with this y, in the map's axes.
+vec3 directionInMap(float u, float y)
 {
     float angle = 2.0 * kPi * u;
     vec2 plain = sqrt(max(1.0 - y * y, 0.0)) * vec2(-sin(angle), cos(angle)); // x and z
-    return vec3(turn.x * plain.x + turn.y * plain.y, y, turn.x * plain.y - turn.y * plain.x);
+    return vec3(plain.x, y, plain.y);
+}
+
+// That direction in the world.
+vec3 mapDirection(float u, float y, EnvironmentMap map)
+{
+    vec3 direction = directionInMap(u, y);
+    return direction.x * map.right + direction.y * map.up + direction.z * map.back;
 }
 
 // Where the map has a direction (length 1): u and v in [0, 1], v from the top.
-vec2 mapCoordinates(vec3 direction, vec2 turn)
+vec2 mapCoordinates(vec3 direction, EnvironmentMap map)
 {
-    vec2 plain = vec2(turn.x * direction.x - turn.y * direction.z, turn.x * direction.z + turn.y * direction.x);
+    vec2 plain = vec2(dot(direction, map.right), dot(direction, map.back));
     float angle = plain == vec2(0.0) ? 0.0 : atan(-plain.x, plain.y);
-    return vec2(fract(angle / (2.0 * kPi)), acos(clamp(direction.y, -1.0, 1.0)) / kPi);
+    return vec2(fract(angle / (2.0 * kPi)), acos(clamp(dot(direction, map.up), -1.0, 1.0)) / kPi);
 }
 
 // Radiance of the map from a direction (length 1): as the camera sees it, which may be blurred, or as it gives light.
@@ -34,7 +41,7 @@ vec3 mapRadiance(Environment_ConstPtr environment, vec3 direction, bool by_camer
         texels = environment.data[0].background;
         size = uvec2(environment.data[0].background_width, environment.data[0].background_height);
     }
-    vec2 place = mapCoordinates(direction, map.turn) * vec2(size) - 0.5;
+    vec2 place = mapCoordinates(direction, map) * vec2(size) - 0.5;
     vec2 low = floor(place);
     vec2 part = place - low;
     ivec2 corner = ivec2(low);

@@ -26,7 +26,9 @@ struct EnvironmentMap
     uint height;
     uint cells_x;
     uint cells_y;
-    vec2 turn; // cosine and sine of the angle by which the map is turned about y, counterclockwise from above
+    vec3 right; // in the world, length 1: the map's +x, as the next two
+    vec3 up;    // +y
+    vec3 back;  // +z
 };
 
 /// All light from outside of the grid, as kernels find it.

@@ -17,5 +17,5 @@ void main()
     if (i >= params.width * params.height)
         return;
     vec2 uv = (vec2(i % params.width, i / params.width) + 0.5) / vec2(params.width, params.height);
-    params.texels.data[i] = skyRadiance(params.sky, mapDirection(uv.x, cos(kPi * uv.y), vec2(1.0, 0.0)));
+    params.texels.data[i] = skyRadiance(params.sky, directionInMap(uv.x, cos(kPi * uv.y)));
 }

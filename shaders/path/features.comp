@@ -21,5 +21,5 @@ void main()
     vec3 direct = params.radiance.data[slot];
     params.direct.data[slot] = luminance(direct);
     addFeatures(params.first_pixel + slot, loadRay(params.rays, slot), loadHit(params.hits, slot), direct,
-                params.origin, params.forward);
+                params.origin, params.axis);
 }

@@ -92,11 +92,12 @@ const uint kListElements = 8u; // of a bounce
 struct PathView
 {
     CameraRays camera;
+    vec3 axis; // PictureCamera's
     uint width;
     uint height;
     uint seed;
     float lens_radius; // unit space
-    float focus;       // distance of the plane in focus along forward, unit space
+    float focus;       // distance of the plane in focus along the axis, unit space
 };
 GPU_BUFFER(PathView, 4);
 
@@ -221,8 +222,8 @@ struct PathFeaturesParams // push constants of path/features: a thread a pixel
     GPU_CONST_PTR(vec3) radiance;    // [batch] that was met so far
     GPU_PTR(float) direct;           // [batch] its luminance
     GPU_PTR(PixelFeatures) features; // [width * height] in the order of strips
-    vec3 origin;                     // of CameraRays, like forward
-    vec3 forward;
+    vec3 origin;                     // of PictureCamera, as axis
+    vec3 axis;
     uint first_pixel;
     uint pixel_count;
 };

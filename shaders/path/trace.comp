@@ -111,9 +111,9 @@ bool advance(Ray ray, Hit hit, inout Path path, inout Shadow shadow)
         path.radiance += lightOfHit(path.state, ray, hit);
     if (kFeatures && path.bounce == 0u)
     {
-        CameraRays camera = params.view.data[0].camera;
         path.direct = luminance(path.radiance);
-        addFeatures(path.state.slot, ray, hit, path.radiance, camera.origin, camera.forward);
+        addFeatures(path.state.slot, ray, hit, path.radiance, params.view.data[0].camera.origin,
+                    params.view.data[0].axis);
     }
 
     NextRay next;

@@ -10,6 +10,7 @@ GPU_NAMESPACE_BEGIN
 struct Sky
 {
     vec3 to_sun;  // length 1
+    vec3 up;      // length 1
     vec3 sun;     // colour of the sun's light, by its strength
     vec3 zenith;  // radiance straight above
     vec3 horizon; // at the horizon, across from the sun

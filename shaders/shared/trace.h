@@ -22,8 +22,8 @@ GPU_BUFFER(Ray, 8);
 
 /// Rays of a picture's pixels in unit space. With n = (2 x + 1 - width, 2 y + 1 - height) for pixel (x, y) from the top
 /// left, offset = n.x * half_pixel_x + n.y * half_pixel_y: perspective rays start at origin along forward + offset,
-/// orthographic ones at origin + offset along forward. forward has length 1 and is orthogonal to both half pixels, so t
-/// is the depth; where it is shifted by a part of a pixel (core/scene/camera.h), t is the depth still.
+/// orthographic ones at origin + offset along forward. The part of forward that is orthogonal to both half pixels, the
+/// camera's axis, has length 1, so t is the depth. The rest shifts the picture's middle.
 struct CameraRays
 {
     vec3 origin;
@@ -31,6 +31,14 @@ struct CameraRays
     vec3 half_pixel_x; // to the right
     vec3 half_pixel_y; // down
 };
+
+/// A camera by which places are found in its picture.
+struct PictureCamera
+{
+    CameraRays rays;
+    vec3 axis; // length 1, orthogonal to the half pixels: forward, where the picture's middle is not shifted
+};
+GPU_BUFFER(PictureCamera, 4);
 
 /// What a ray meets first. 16 bytes, as lib/hit.glsl packs them:
 ///

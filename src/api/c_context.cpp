@@ -80,7 +80,7 @@ int zvoVersion(void)
 }
 
 ZvoResult zvoQuery(PFN_vkGetInstanceProcAddr get_instance_proc_addr, VkInstance instance,
-                   VkPhysicalDevice physical_device, ZvoDeviceReport** report)
+                   VkPhysicalDevice physical_device, uint32_t instance_api_version, ZvoDeviceReport** report)
 {
     return guarded(__func__,
                    [&]
@@ -88,7 +88,9 @@ ZvoResult zvoQuery(PFN_vkGetInstanceProcAddr get_instance_proc_addr, VkInstance 
                        at(get_instance_proc_addr, "get_instance_proc_addr");
                        at(instance, "instance");
                        at(physical_device, "physical_device");
-                       give(report, "report", [&] { return query(get_instance_proc_addr, instance, physical_device); });
+                       give(report, "report",
+                            [&]
+                            { return query(get_instance_proc_addr, instance, physical_device, instance_api_version); });
                    });
 }
 
@@ -119,6 +121,17 @@ ZvoResult zvoPatchFeatures(VkDeviceCreateInfo* info, ZvoFeatureStorage* storage,
                    {
                        const auto features = optional == nullptr ? OptionalFeatures{} : read(optional, "optional");
                        patchFeatures(at(info, "info"), objectOf(storage, "storage"), features);
+                   });
+}
+
+ZvoResult zvoPatchFeatureChain(const void** chain, ZvoFeatureStorage* storage, VkPhysicalDeviceFeatures* core,
+                               const ZvoOptionalFeatures* optional)
+{
+    return guarded(__func__,
+                   [&]
+                   {
+                       const auto features = optional == nullptr ? OptionalFeatures{} : read(optional, "optional");
+                       patchFeatures(at(chain, "chain"), objectOf(storage, "storage"), core, features);
                    });
 }
 

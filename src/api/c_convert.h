@@ -8,6 +8,7 @@
 #include "api/c_struct.h"
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <iterator>
 #include <string>
@@ -126,5 +127,13 @@ private:
     std::vector<TextureInfo> m_textures;
     ModelInfo m_info;
 };
+
+/// The numbers of a host's array. Throws Error{Usage} for null.
+template <std::size_t count> std::array<double, count> arrayOf(const double* values, const char* name)
+{
+    std::array<double, count> result{};
+    std::copy_n(&at(values, name), result.size(), result.begin());
+    return result;
+}
 
 } // namespace zvo

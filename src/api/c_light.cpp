@@ -21,14 +21,13 @@ ZvoResult zvoEnvironmentCreate(ZvoRecorder* recorder, const ZvoEnvironmentMapInf
                    });
 }
 
-ZvoResult zvoSunlight(const double direction[3], ZvoSunInfo* sun)
+ZvoResult zvoSunlight(const double direction[3], const double up[3], ZvoSunInfo* sun)
 {
     return guarded(__func__,
                    [&]
                    {
                        static_cast<void>(at(sun, "sun")); // before it is known whether the direction is one
-                       const double* const from = &at(direction, "direction");
-                       const SunInfo made = sunlight({from[0], from[1], from[2]});
+                       const SunInfo made = sunlight(arrayOf<3>(direction, "direction"), arrayOf<3>(up, "up"));
                        write(sun, "sun", made);
                    });
 }

@@ -64,7 +64,7 @@ ZVO_C_STRUCT(ZvoDeviceInfo, DeviceReport, ZVO_DEVICE_INFO_INIT,
 ZVO_C_STRUCT(ZvoContextInfo, ContextInfo, ZVO_CONTEXT_INFO_INIT,
              (it.get_instance_proc_addr, it.instance, it.physical_device, it.device, it.queue_family,
               it.instance_api_version, it.enabled_features, it.enabled_core_features, it.allocation_callbacks,
-              it.pipeline_cache, it.memory, it.memory_budget_bytes, it.timed_passes_per_frame, it.subgroup_size),
+              it.pipeline_cache, it.memory, it.memory_budget_bytes, it.timed_passes_per_frame, it.subgroup_size, it.up),
              (it.instance_extensions, it.device_extensions, it.instance_extension_count, it.device_extension_count,
               it.log, it.tuning));
 ZVO_C_STRUCT(ZvoMemoryUse, MemoryUse, ZVO_MEMORY_USE_INIT, (it.used, it.held, it.peak_held), ());
@@ -102,7 +102,9 @@ ZVO_C_STRUCT(ZvoSunInfo, SunInfo, ZVO_SUN_INFO_INIT, (it.direction, it.irradianc
 ZVO_C_STRUCT(ZvoEnvironmentMapInfo, EnvironmentMapInfo, ZVO_ENVIRONMENT_MAP_INFO_INIT,
              (it.width, it.height, it.turn, it.strength, it.background_blur), (it.texels));
 ZVO_C_STRUCT(ZvoCameraInfo, CameraInfo, ZVO_CAMERA_INFO_INIT,
-             (it.position, it.forward, it.up, it.vertical_fov, it.half_height, it.orthographic), ());
+             (it.position, it.forward, it.up, it.vertical_fov, it.half_height, it.orthographic, it.mirrored, it.aspect,
+              it.shift),
+             ());
 ZVO_C_STRUCT(ZvoTraceInfo, TraceInfo, ZVO_TRACE_INFO_INIT,
              (it.to_sun, it.view, it.shadows, it.sun, it.exposure, it.occlusion_rays, it.occlusion_reach,
               it.detail_pixels, it.shading),

@@ -3,7 +3,6 @@
 #include "api/c_convert.h"
 #include "api/c_handles.h"
 
-#include <algorithm>
 #include <optional>
 
 namespace zvo
@@ -44,13 +43,6 @@ ZvoResult tracePaths(const char* function, ZvoTracer* tracer, ZvoRecorder* recor
                                        objectOf(environment, "environment"), read(camera, "camera"), read(info, "info"),
                                        read(color, "color"));
                    });
-}
-
-DVec3 vectorOf(const double* values, const char* name)
-{
-    DVec3 result{};
-    std::copy_n(&at(values, name), result.size(), result.begin());
-    return result;
 }
 
 } // namespace
@@ -112,17 +104,32 @@ ZvoResult zvoCameraLookAt(const double eye[3], const double target[3], double ve
                    [&]
                    {
                        const CameraInfo info =
-                           CameraInfo::lookAt(vectorOf(eye, "eye"), vectorOf(target, "target"), vertical_fov);
+                           CameraInfo::lookAt(arrayOf<3>(eye, "eye"), arrayOf<3>(target, "target"), vertical_fov);
                        write(camera, "camera", info);
                    });
 }
 
-ZvoResult zvoCameraRays(const ZvoCameraInfo* camera, const ZvoGrid* grid, uint32_t height, ZvoCameraRays* rays)
+ZvoResult zvoCameraOfMatrices(const double view[16], const double projection[16], VkBool32 y_up,
+                              VkBool32 reversed_depth, ZvoCameraInfo* camera)
+{
+    return guarded(
+        __func__,
+        [&]
+        {
+            const ClipSpace clip = {.y_up = y_up != VK_FALSE, .reversed_depth = reversed_depth != VK_FALSE};
+            write(camera, "camera",
+                  CameraInfo::ofMatrices(arrayOf<16>(view, "view"), arrayOf<16>(projection, "projection"), clip));
+        });
+}
+
+ZvoResult zvoCameraRays(const ZvoCameraInfo* camera, const ZvoGrid* grid, uint32_t width, uint32_t height,
+                        ZvoCameraRays* rays)
 {
     return guarded(__func__,
                    [&]
                    {
-                       const CameraRays result = cameraRays(read(camera, "camera"), ofC(at(grid, "grid")), height);
+                       const CameraRays result =
+                           cameraRays(read(camera, "camera"), ofC(at(grid, "grid")), width, height);
                        at(rays, "rays") = toC<ZvoCameraRays>(result);
                    });
 }

@@ -72,6 +72,12 @@ void requireAtMost(std::uint64_t count, std::uint64_t most, const char* name)
     }
 }
 
+glm::dvec3 checkedUp(const DVec3& up, const char* name)
+{
+    requireDirection(up, name);
+    return glm::normalize(toGlm(up));
+}
+
 Grid checkedGrid(const GridInfo& info)
 {
     if (info.depth < 1 || info.depth > Grid::kDepthMax)

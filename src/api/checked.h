@@ -30,6 +30,9 @@ template <typename Enum> Enum checkedEnum(Enum value, Enum last, const char* nam
 }
 
 /// Checks that the depth exists, the far corner is finite, and the voxel size has a finite inverse.
+/// A direction of length 1.
+glm::dvec3 checkedUp(const DVec3& up, const char* name);
+
 Grid checkedGrid(const GridInfo& info);
 
 /// Checks that a transform is finite and affine. what: the transform's name in messages.

@@ -3,6 +3,7 @@
 
 #include "api/checked.h"
 #include "api/context_impl.h"
+#include "api/convert.h"
 #include "core/base/kernels.h"
 #include "core/base/tuning.h"
 
@@ -55,6 +56,9 @@ constexpr VkPipelineStageFlags2 kStagesWithoutShaders =
 // Each takes up to three timestamps, whose number must fit 32 bits.
 constexpr std::uint32_t kTimedPassesMax = 1U << 16;
 
+// No host has so many frames under way.
+constexpr std::size_t kFramesExpected = 64;
+
 vk::DeviceHandles handlesOf(const ContextInfo& info)
 {
     requireAtMost(info.timed_passes_per_frame, kTimedPassesMax, "ContextInfo::timed_passes_per_frame");
@@ -86,7 +90,8 @@ vk::DeviceHandles handlesOf(const ContextInfo& info)
 } // namespace
 
 Context::Impl::Impl(const ContextInfo& info)
-    : device(handlesOf(info), zvoKernels()), uploads(device, deletion_queue), timed_passes(info.timed_passes_per_frame)
+    : device(handlesOf(info), zvoKernels()), uploads(device, deletion_queue), timed_passes(info.timed_passes_per_frame),
+      up(checkedUp(info.up, "ContextInfo::up"))
 {
 }
 
@@ -129,6 +134,13 @@ std::shared_ptr<FrameState> Context::Impl::beginFrame(std::uint64_t number)
     frames.push_back(frame);
     was_lost = false;
     deletion_queue.beginFrame(number);
+    if (frames.size() > kFramesExpected && !has_told_waiting)
+    {
+        has_told_waiting = true;
+        device.log(LogSeverity::Warning,
+                   "{} frames have begun since one was done: memory of all of them is kept. Call Context::frameDone()",
+                   frames.size());
+    }
     return frame;
 }
 
@@ -159,6 +171,7 @@ void Context::frameDone(std::uint64_t frame)
         throw Error(ErrorCode::Usage,
                     fmt::format("frame {} cannot be done: its Recorder is still there", impl.frames.back()->number));
     }
+    impl.has_told_waiting = false;
     std::exception_ptr failure;
     while (!impl.frames.empty() && impl.frames.front()->number <= frame)
     {

@@ -11,6 +11,7 @@
 
 #include <cstdint>
 #include <deque>
+#include <glm/glm.hpp>
 #include <memory>
 #include <optional>
 #include <string>
@@ -57,12 +58,14 @@ struct ZVO_LOCAL Context::Impl
     vk::DeletionQueue deletion_queue;
     vk::RecordedUploads uploads;
     std::uint32_t timed_passes;
+    glm::dvec3 up;                                       // length 1
     std::deque<std::shared_ptr<FrameState>> frames = {}; // frames that are not known to be done
     std::optional<std::uint64_t> done = std::nullopt;    // number of the newest frame that is done
     std::vector<std::unique_ptr<vk::TimerPool>> free_timers = {};
     std::vector<PassTime> times = {};
     bool is_recording = false;
-    bool was_lost = false; // whether the frame that was begun last was lost
+    bool has_told_waiting = false; // that frames are not known to be done
+    bool was_lost = false;         // whether the frame that was begun last was lost
 };
 
 struct ZVO_LOCAL Recorder::Impl

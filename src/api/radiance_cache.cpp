@@ -39,7 +39,7 @@ void RadianceCache::Impl::update(Recorder& recorder, AnyTree& any_tree, Environm
     requireSame(context, recorder.impl().context, environment.context);
     const ShownTree shown = shownIn(recorder.impl(), any_tree);
     const DeviceTree& tree = shown.tree;
-    const TraceCamera camera = traceCamera(viewOf(camera_info), tree.grid, info.height);
+    const TraceCamera camera = traceCamera(viewOf(camera_info, {info.width, info.height}), tree.grid, info.height);
     FrameOptions options;
     options.integrator = Integrator::Cache;
     options.radiance = {.faces = checked(frame_info).rays, .seed = frame_info.seed};

@@ -22,9 +22,10 @@ namespace zvo
 namespace
 {
 
-FrameOptions optionsOf(const TraceInfo& info)
+FrameOptions optionsOf(const TraceInfo& info, const glm::dvec3& up)
 {
     FrameOptions options;
+    options.trace.up = up;
     options.trace.view = checked(info).view;
     options.trace.shadows = info.shadows;
     options.trace.to_sun = toGlm(info.to_sun);
@@ -103,7 +104,7 @@ struct ZVO_LOCAL Tracer::Impl
             requireDepthCopyable(context.device, size(), depth->image);
         }
         const TraceCamera camera = cameraOf(camera_info, tree);
-        const FrameOptions options = optionsOf(info);
+        const FrameOptions options = optionsOf(info, context.up);
         recording(recorder,
                   [&](Recorder::Impl& impl)
                   {
@@ -191,7 +192,7 @@ struct ZVO_LOCAL Tracer::Impl
 
     [[nodiscard]] TraceCamera cameraOf(const CameraInfo& info, const DeviceTree& tree) const
     {
-        return traceCamera(viewOf(info), tree.grid, size().height);
+        return traceCamera(viewOf(info, size()), tree.grid, size().height);
     }
 
     void requireColor(const ImageTarget& color)

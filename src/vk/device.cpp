@@ -74,7 +74,8 @@ Device::Device(const DeviceHandles& handles, std::span<const EmbeddedKernel> ker
       m_functions(handles.functions != nullptr
                       ? *handles.functions
                       : Functions::ofDevice(handles.get_instance_proc_addr, handles.instance, handles.device)),
-      m_report(query(handles.get_instance_proc_addr, handles.instance, handles.physical_device))
+      m_report(query(handles.get_instance_proc_addr, handles.instance, handles.physical_device,
+                     handles.instance_api_version))
 {
     VkPhysicalDeviceProperties properties{};
     m_functions.vkGetPhysicalDeviceProperties(handles.physical_device, &properties);
@@ -100,14 +101,6 @@ Device::~Device() = default;
 
 void Device::takeDeclaration()
 {
-    if (m_handles.instance_api_version < VK_API_VERSION_1_3)
-    {
-        m_report.reasons.push_back(fmt::format(
-            "its instance was created for Vulkan {}.{}, zvo needs 1.3 (set VkApplicationInfo::apiVersion, and declare "
-            "it)",
-            std::max(VK_API_VERSION_MAJOR(m_handles.instance_api_version), 1U),
-            VK_API_VERSION_MINOR(m_handles.instance_api_version)));
-    }
     const std::vector<std::string> declared =
         enabledFeatures(m_handles.enabled_features, m_handles.enabled_core_features);
     std::vector<std::string> undeclared;

@@ -195,4 +195,18 @@ void patchFeatures(VkDeviceCreateInfo& info, FeatureStorage& storage, const Opti
     }
 }
 
+void patchFeatures(const void*& chain, FeatureStorage& storage, VkPhysicalDeviceFeatures* core,
+                   const OptionalFeatures& optional)
+{
+    VkDeviceCreateInfo info{};
+    info.pNext = chain;
+    info.pEnabledFeatures = core;
+    patchFeatures(info, storage, optional);
+    chain = info.pNext;
+    if (core != nullptr)
+    {
+        *core = *info.pEnabledFeatures;
+    }
+}
+
 } // namespace zvo

@@ -219,7 +219,7 @@ std::vector<DeviceReport> Instance::queryAll() const
     std::vector<DeviceReport> reports;
     for (VkPhysicalDevice device : devices)
     {
-        reports.push_back(query(m_functions.vkGetInstanceProcAddr, m_handle, device));
+        reports.push_back(query(m_functions.vkGetInstanceProcAddr, m_handle, device, kInstanceApiVersion));
     }
     return reports;
 }

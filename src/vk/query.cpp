@@ -210,7 +210,7 @@ namespace zvo
 {
 
 DeviceReport query(PFN_vkGetInstanceProcAddr get_instance_proc_addr, VkInstance instance,
-                   VkPhysicalDevice physical_device)
+                   VkPhysicalDevice physical_device, std::uint32_t instance_api_version)
 {
     if (get_instance_proc_addr == nullptr || instance == VK_NULL_HANDLE || physical_device == VK_NULL_HANDLE)
     {
@@ -233,11 +233,14 @@ DeviceReport query(PFN_vkGetInstanceProcAddr get_instance_proc_addr, VkInstance 
     {
         report.reasons.push_back("supports Vulkan " + report.api_version + " only, zvo needs 1.3");
     }
-    if (fn.vkGetPhysicalDeviceFeatures2 == nullptr || fn.vkGetPhysicalDeviceProperties2 == nullptr)
+    if (instance_api_version < vk::kApiVersion)
     {
-        report.reasons.emplace_back("the instance was created for Vulkan 1.0, zvo needs 1.3");
+        report.reasons.push_back(fmt::format(
+            "its instance was created for Vulkan {}.{}, zvo needs 1.3 (set VkApplicationInfo::apiVersion, and declare "
+            "it)",
+            std::max(VK_API_VERSION_MAJOR(instance_api_version), 1U), VK_API_VERSION_MINOR(instance_api_version)));
     }
-    else
+    if (fn.vkGetPhysicalDeviceFeatures2 != nullptr && fn.vkGetPhysicalDeviceProperties2 != nullptr)
     {
         // Structs that an older driver does not know stay zero, so that their features are reported as missing.
         vk::queryFeatures(report, fn);

@@ -70,7 +70,7 @@ TEST_F(ApiArguments, GridsAreFiniteWithVoxelsOfASize)
     const auto refused = [&](const GridInfo& grid, const std::string& word)
     {
         expectUsage([&] { TreeBuild(m_host.context, model, {.grid = grid}); }, word);
-        expectUsage([&] { (void)cameraRays(test::apiCamera(), grid, 100); }, word);
+        expectUsage([&] { (void)cameraRays(test::apiCamera(), grid, 100, 100); }, word);
     };
     for (const float size : {0.0F, -0.0F, -1.0F, kInf, -kInf, kNan, std::numeric_limits<float>::denorm_min()})
     {
@@ -87,7 +87,7 @@ TEST_F(ApiArguments, GridsAreFiniteWithVoxelsOfASize)
     {
         refused({{0, 0, 0}, 1, depth}, "depth " + std::to_string(depth));
     }
-    EXPECT_NO_THROW((void)cameraRays(test::apiCamera(), {{-1e6F, 0, 1e6F}, 1e-3F, 17}, 100));
+    EXPECT_NO_THROW((void)cameraRays(test::apiCamera(), {{-1e6F, 0, 1e6F}, 1e-3F, 17}, 100, 100));
 }
 
 // The machine's Vulkan without queue families that draw.
@@ -214,9 +214,13 @@ TEST_F(ApiArguments, HandlesAreNotNull)
 {
     expectUsage([&] { Recorder(m_host.context, VK_NULL_HANDLE, 1); }, "command buffer");
     const ContextInfo& info = m_host.declaration.info;
-    expectUsage([&] { (void)query(nullptr, info.instance, info.physical_device); }, "vkGetInstanceProcAddr");
-    expectUsage([&] { (void)query(info.get_instance_proc_addr, VK_NULL_HANDLE, info.physical_device); }, "VkInstance");
-    expectUsage([&] { (void)query(info.get_instance_proc_addr, info.instance, VK_NULL_HANDLE); }, "VkPhysicalDevice");
+    expectUsage([&] { (void)query(nullptr, info.instance, info.physical_device, VK_API_VERSION_1_3); },
+                "vkGetInstanceProcAddr");
+    expectUsage([&]
+                { (void)query(info.get_instance_proc_addr, VK_NULL_HANDLE, info.physical_device, VK_API_VERSION_1_3); },
+                "VkInstance");
+    expectUsage([&] { (void)query(info.get_instance_proc_addr, info.instance, VK_NULL_HANDLE, VK_API_VERSION_1_3); },
+                "VkPhysicalDevice");
     m_host.frame([](Recorder&) {}); // the context still works
 }
 

@@ -300,6 +300,46 @@ TEST(ApiContract, MisuseIsAnErrorThatSaysWhat)
     expectUsage([&] { (void)build.take(); }, "taken");
 }
 
+TEST(ApiContract, FramesThatAreNeverDoneAreToldOnce)
+{
+    std::vector<std::string> warnings;
+    test::EmbeddingHost host({},
+                             [&](ContextInfo& info)
+                             {
+                                 info.log.user = &warnings;
+                                 info.log.function = [](void* user, LogSeverity severity, const char* message)
+                                 {
+                                     if (severity == LogSeverity::Warning)
+                                     {
+                                         static_cast<std::vector<std::string>*>(user)->emplace_back(message);
+                                     }
+                                 };
+                             });
+    const auto record = [&](int frames)
+    {
+        for (int i = 0; i < frames; ++i)
+        {
+            VkCommandBuffer commands = host.device.begin();
+            {
+                const Recorder recorder(host.context, commands, ++host.last_frame);
+            }
+            host.device.submit(commands);
+            host.device.wait();
+        }
+    };
+    record(64);
+    EXPECT_TRUE(warnings.empty()) << warnings.front();
+    record(40);
+    ASSERT_EQ(warnings.size(), 1U);
+    EXPECT_NE(warnings.front().find("frameDone"), std::string::npos) << warnings.front();
+    host.context.frameDone(host.last_frame);
+    record(64);
+    EXPECT_EQ(warnings.size(), 1U);
+    record(1);
+    EXPECT_EQ(warnings.size(), 2U);
+    host.context.frameDone(host.last_frame);
+}
+
 TEST(ApiContract, ATreeThatCannotBecomeDynamicStays)
 {
     test::EmbeddingHost host;

@@ -240,9 +240,10 @@ TEST(CApi, ReportsAndPassTimesAreToldLineByLine)
     options.optional.pass_times = true;
     test::CEmbeddingHost host(options, [](ZvoContextInfo& info) { info.timed_passes_per_frame = 300; });
     const DeviceReport expected =
-        query(host.info.get_instance_proc_addr, host.info.instance, host.info.physical_device);
+        query(host.info.get_instance_proc_addr, host.info.instance, host.info.physical_device, VK_API_VERSION_1_3);
     ZvoDeviceReport* asked = nullptr;
-    ASSERT_EQ(zvoQuery(host.info.get_instance_proc_addr, host.info.instance, host.info.physical_device, &asked),
+    ASSERT_EQ(zvoQuery(host.info.get_instance_proc_addr, host.info.instance, host.info.physical_device,
+                       VK_API_VERSION_1_3, &asked),
               ZVO_OK);
     const ZvoDeviceReport* own = nullptr;
     ASSERT_EQ(zvoContextReport(host.context, &own), ZVO_OK);

@@ -173,6 +173,7 @@ TEST(CStructs, PointersThatAreNullAreRefused)
     REFUSES_NULLS(zvoDeviceReportText);
     REFUSES_NULLS(zvoFeatureStorageCreate);
     REFUSES_NULLS(zvoPatchFeatures, 2);
+    REFUSES_NULLS(zvoPatchFeatureChain, 2);
     REFUSES_NULLS(zvoContextCreate);
     REFUSES_NULLS(zvoContextFrameDone);
     REFUSES_NULLS(zvoContextFrameLost);
@@ -212,6 +213,7 @@ TEST(CStructs, PointersThatAreNullAreRefused)
     REFUSES_NULLS(zvoQueryBatchIsDone);
     REFUSES_NULLS(zvoQueryBatchAnswers);
     REFUSES_NULLS(zvoCameraLookAt);
+    REFUSES_NULLS(zvoCameraOfMatrices);
     REFUSES_NULLS(zvoCameraRays);
     host.frame(
         [&](ZvoRecorder* recorder)

@@ -199,7 +199,7 @@ void HostDevice::choosePhysicalDevice()
     std::vector<DeviceReport> reports;
     for (VkPhysicalDevice device : devices)
     {
-        reports.push_back(query(m_get, m_instance, device));
+        reports.push_back(query(m_get, m_instance, device, VK_API_VERSION_1_3));
     }
     const DeviceReport& chosen = vk::chooseDevice(reports, deviceOptions().device);
     m_physical_device = chosen.physical_device;

@@ -119,7 +119,8 @@ TEST(Declaration, ASubgroupSizeNeedsItsFeature)
     const test::HostDevice without(options);
     vk::DeviceHandles handles = without.handles();
     const std::uint32_t size =
-        query(handles.get_instance_proc_addr, handles.instance, handles.physical_device).max_subgroup_size;
+        query(handles.get_instance_proc_addr, handles.instance, handles.physical_device, handles.instance_api_version)
+            .max_subgroup_size;
     handles.tuning = {{vk::kSubgroupSizeName, size}};
     if (size == 0)
     {

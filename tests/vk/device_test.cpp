@@ -7,6 +7,7 @@
 #include "support/failing_vulkan.h"
 #include "support/host_device.h"
 #include "vk/check.h"
+#include "vk/features.h"
 #include "vk/instance.h"
 #include "vk/kernels.h"
 #include "zvo/error.h"
@@ -16,6 +17,10 @@
 #include <algorithm>
 #include <cstdint>
 #include <cstring>
+#include <fstream>
+#include <regex>
+#include <set>
+#include <string>
 
 namespace
 {
@@ -68,7 +73,7 @@ TEST(Query, ListsEveryReasonOfADeviceThatLacksEverything)
 {
     const auto instance = reinterpret_cast<VkInstance>(std::uintptr_t{8}); // never read
     const auto physical_device = reinterpret_cast<VkPhysicalDevice>(std::uintptr_t{16});
-    const vk::DeviceReport report = vk::query(fakeInstanceProcAddr, instance, physical_device);
+    const vk::DeviceReport report = vk::query(fakeInstanceProcAddr, instance, physical_device, VK_API_VERSION_1_0);
     EXPECT_FALSE(report.usable());
     EXPECT_EQ(report.name, "Toaster");
     EXPECT_EQ(report.type, "other");
@@ -80,12 +85,51 @@ TEST(Query, ListsEveryReasonOfADeviceThatLacksEverything)
         reasons += reason + "\n";
     }
     for (const char* needed :
-         {"Vulkan 1.1", "compute queue", "shaderInt64", "bufferDeviceAddress", "scalarBlockLayout", "synchronization2",
-          "maintenance4", "subgroup basic", "subgroup arithmetic", "subgroup ballot", "subgroup shuffle",
-          "maxPushConstantsSize", "maxComputeWorkGroupInvocations"})
+         {"created for Vulkan 1.0", "supports Vulkan 1.1", "compute queue", "shaderInt64", "bufferDeviceAddress",
+          "scalarBlockLayout", "synchronization2", "maintenance4", "subgroup basic", "subgroup arithmetic",
+          "subgroup ballot", "subgroup shuffle", "maxPushConstantsSize", "maxComputeWorkGroupInvocations"})
     {
         EXPECT_TRUE(contains(reasons, needed)) << needed << " is not among:\n" << reasons;
     }
+}
+
+// The tables of docs/embedding.md, "What a device needs", are the code's own lists.
+TEST(Query, ThePageForHostsHasWhatADeviceNeeds)
+{
+    std::ifstream page(ZVO_SOURCE_DIR "/docs/embedding.md");
+    std::set<std::string> rows; // "name value"
+    bool is_there = false;
+    for (std::string line; std::getline(page, line);)
+    {
+        is_there = line.starts_with("## ") ? line == "## What a device needs" : is_there;
+        std::smatch row;
+        if (is_there && std::regex_match(line, row, std::regex(R"(\| `([^`]+)` \| (\w+).*)")))
+        {
+            rows.insert(row.str(1) + ' ' + row.str(2));
+        }
+    }
+    std::set<std::string> expected;
+    for (const vk::Feature& feature : vk::knownFeatures())
+    {
+        if (feature.use != vk::FeatureUse::Noted)
+        {
+            const bool is_required = feature.use == vk::FeatureUse::Required;
+            expected.insert(std::string(feature.name) + (is_required ? " required" : " optional"));
+        }
+    }
+    const auto instance = reinterpret_cast<VkInstance>(std::uintptr_t{8}); // never read
+    const auto physical_device = reinterpret_cast<VkPhysicalDevice>(std::uintptr_t{16});
+    for (const std::string& reason :
+         vk::query(fakeInstanceProcAddr, instance, physical_device, VK_API_VERSION_1_3).reasons)
+    {
+        std::smatch limit;
+        if (std::regex_match(reason, limit, std::regex(R"((max\S+) is 0, zvo needs (\d+))")))
+        {
+            expected.insert(limit.str(1) + ' ' + limit.str(2));
+        }
+    }
+    EXPECT_GE(expected.size(), 10U);
+    EXPECT_EQ(rows, expected);
 }
 
 TEST(Query, DescribesTheDevice)

@@ -124,6 +124,29 @@ bool isLegal(const VkDeviceCreateInfo& info)
            !(has(types.vulkan13.sType) && singles13);
 }
 
+// A wrapper that makes the VkDeviceCreateInfo later gets what the host would have put into it.
+TEST(PatchFeatures, AChainAndCoreFeaturesAreEnough)
+{
+    for (const bool has_core : {true, false})
+    {
+        FeatureStructs structs;
+        structs.enabled.geometryShader = VK_TRUE;
+        structs.vulkan13.dynamicRendering = VK_TRUE;
+        const void* chain = &structs.vulkan13;
+        FeatureStorage storage;
+        patchFeatures(chain, storage, has_core ? &structs.enabled : nullptr, {.pass_times = true});
+        VkDeviceCreateInfo info{};
+        info.pNext = chain;
+        info.pEnabledFeatures = has_core ? &structs.enabled : nullptr;
+        EXPECT_TRUE(isLegal(info));
+        std::set<std::string> expected = kRequiredFeatures;
+        expected.insert("hostQueryReset");
+        EXPECT_EQ(featuresOf(info), expected);
+        EXPECT_EQ(structs.enabled.geometryShader, VkBool32{VK_TRUE});
+        EXPECT_EQ(structs.vulkan13.dynamicRendering, VkBool32{VK_TRUE});
+    }
+}
+
 /// Tests every subset of the structs that Vulkan allows.
 TEST(PatchFeatures, EveryMixOfStructsIsCompleted)
 {

@@ -96,7 +96,7 @@ void Denoiser::demodulate(vk::FrameGraph& graph, const GuidedPicture& guided)
 void Denoiser::reproject(vk::FrameGraph& graph, const GuidedPicture& guided, std::uint32_t history_max)
 {
     const TraceCamera& old_camera = before().camera;
-    graph.update(m_pixels->cameras, 0, std::array{guided.camera.rays, old_camera.rays});
+    graph.update(m_pixels->cameras, 0, std::array{guided.camera.inPicture(), old_camera.inPicture()});
     vk::Pass pass = graph.addPass(gpu::denoise::Reproject{.orthographic = guided.camera.orthographic,
                                                           .old_orthographic = old_camera.orthographic});
     pass.dispatch(m_pixels->sums.count(), {.light = pass.readWrite(now().light),

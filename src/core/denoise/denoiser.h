@@ -64,7 +64,7 @@ private:
         std::array<Moment, 2> moments;
         std::array<vk::BufferOf<gpu::vec4>, 2> filtered; // [width * height]
         vk::BufferOf<gpu::PixelSum> sums;                // [width * height]
-        vk::BufferOf<gpu::CameraRays> cameras;           // [2]
+        vk::BufferOf<gpu::PictureCamera> cameras;        // [2]
     };
 
     void demodulate(vk::FrameGraph& graph, const GuidedPicture& guided);

@@ -30,7 +30,7 @@ CacheView viewOf(const FrameOptions& options)
 // Pictures by primary rays are not metered: the sky says how bright the day is.
 float primaryExposure(const FrameOptions& options)
 {
-    const double daylight = options.exposure.automatic ? daylightExposure(options.trace.to_sun) : 1.0;
+    const double daylight = options.exposure.automatic ? daylightExposure(options.trace.to_sun, options.trace.up) : 1.0;
     return options.exposure.factor * static_cast<float>(daylight);
 }
 

@@ -30,28 +30,33 @@ std::uint32_t cellsAlong(std::uint32_t edge, std::uint32_t texels)
     return std::max(static_cast<std::uint32_t>(divideUp(edge, texels)), kCellsMin);
 }
 
-gpu::EnvironmentMap mapOf(std::uint32_t width, std::uint32_t height, double turn)
+gpu::EnvironmentMap mapOf(std::uint32_t width, std::uint32_t height)
 {
     std::uint32_t texels = 1;
     while (std::uint64_t{cellsAlong(width, texels)} * cellsAlong(height, texels) > gpu::kAliasCellsMax)
     {
         ++texels;
     }
-    return {width, height, cellsAlong(width, texels), cellsAlong(height, texels),
-            gpu::vec2(std::cos(turn), std::sin(turn))};
+    gpu::EnvironmentMap map{};
+    map.width = width;
+    map.height = height;
+    map.cells_x = cellsAlong(width, texels);
+    map.cells_y = cellsAlong(height, texels);
+    return map;
 }
 
 } // namespace
 
 DeviceEnvironment::DeviceEnvironment(vk::Device& device, std::uint32_t width, std::uint32_t height, double turn,
                                      double strength)
-    : m_version(newVersion())
+    : m_version(newVersion()), m_turn(turn)
 {
     if (width == 0 || height == 0)
     {
         throw Error(ErrorCode::Usage, "an environment map has no texels");
     }
-    m_values.map = mapOf(width, height, turn);
+    m_values.map = mapOf(width, height);
+    setUp(kUp);
     m_values.strength = static_cast<float>(strength);
     m_values.background_width = width;
     m_values.background_height = height;
@@ -94,7 +99,7 @@ DeviceEnvironment::DeviceEnvironment(vk::Uploader& uploads, std::uint32_t width,
 void DeviceEnvironment::setSun(const Sun& sun)
 {
     const double length = glm::length(sun.direction);
-    const glm::dvec3 direction = length > 0.0 ? sun.direction / length : glm::dvec3(0.0, 1.0, 0.0);
+    const glm::dvec3 direction = length > 0.0 ? sun.direction / length : m_up;
     const double sine = std::sin(sun.angle);
     const gpu::vec3 radiance(sun.irradiance / (sine * sine));
     const gpu::Environment before = m_values;
@@ -107,6 +112,17 @@ void DeviceEnvironment::setSun(const Sun& sun)
         m_is_prepared = m_is_prepared && (!m_is_sky || before.to_sun == m_values.to_sun);
         m_version = newVersion();
     }
+}
+
+void DeviceEnvironment::setUp(const glm::dvec3& up)
+{
+    const glm::dmat3 upright = uprightTurn(up);
+    const double c = std::cos(m_turn);
+    const double s = std::sin(m_turn);
+    m_up = up;
+    m_values.map.right = gpu::vec3(upright * glm::dvec3(c, 0.0, -s));
+    m_values.map.up = gpu::vec3(up);
+    m_values.map.back = gpu::vec3(upright * glm::dvec3(s, 0.0, c));
 }
 
 void DeviceEnvironment::setBackground(vk::Device& device, HdrImage map)
@@ -130,7 +146,8 @@ void DeviceEnvironment::prepare(vk::FrameGraph& graph)
         if (m_is_sky)
         {
             vk::Pass pass = graph.addPass(gpu::light::SkyTexels{});
-            const gpu::SkyTexelsParams params = {pass.write(m_texels), skyOf(glm::dvec3(m_values.to_sun)),
+            const gpu::SkyTexelsParams params = {pass.write(m_texels),
+                                                 skyOf(glm::dvec3(m_values.to_sun) * uprightTurn(m_up)),
                                                  m_values.map.width, m_values.map.height};
             pass.dispatch(m_texels.count(), params);
         }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/scene/hdr_image.h"
+#include "core/scene/sky.h"
 #include "light/environment.h"
 #include "vk/buffer.h"
 #include "vk/frame_graph.h"
@@ -31,7 +32,7 @@ public:
     explicit DeviceEnvironment(vk::Device& device);
 
     /// A map of radiance in all directions (shaders/light/environment.h says which one is where). All values must be
-    /// finite and at least 0. turn: the angle, in radians, by which it is turned about y, counterclockwise as seen from
+    /// finite and at least 0. turn: the angle, in radians, by which it is turned about up, counterclockwise as seen from
     /// above. strength: factor for its radiance. Throws Error{Usage} for a picture of no texels, and Error{Memory}.
     DeviceEnvironment(vk::Device& device, const HdrImage& picture, double turn, double strength);
 
@@ -40,6 +41,10 @@ public:
                       std::span<const glm::vec3> texels, double turn, double strength);
 
     void setSun(const Sun& sun);
+
+    /// Puts the map, or the simple sky, upright in a world whose up (length 1) is another one than +y, by the least
+    /// turn (uprightTurn()): before prepare() is called.
+    void setUp(const glm::dvec3& up);
 
     /// Has the camera see another map, turned in the same way, in place of the one that gives light: before prepare()
     /// is called. Throws Error{Memory}.
@@ -85,6 +90,8 @@ private:
     gpu::Environment m_values{};
     std::vector<glm::vec3> m_upload; // texels that the device does not have yet
     bool m_is_sky = false;           // the simple one
+    double m_turn;                   // of the map
+    glm::dvec3 m_up = kUp;
     bool m_chooses_evenly = false;
     bool m_is_prepared = false;   // texels and tables
     bool m_is_current = false;    // m_buffer

@@ -24,14 +24,15 @@ glm::dvec3 wayTo(const TraceCamera& camera, const glm::dvec3& place, bool is_dir
 
 double depthOf(const TraceCamera& camera, const glm::dvec3& place, bool is_direction)
 {
-    return glm::dot(wayTo(camera, place, is_direction), glm::dvec3(camera.rays.forward));
+    return glm::dot(wayTo(camera, place, is_direction), glm::dvec3(camera.axis));
 }
 
 // Where a place before a camera is in its picture.
 glm::dvec2 pixelOf(const TraceCamera& camera, const glm::dvec3& place, bool is_direction, const glm::dvec2& size)
 {
     const glm::dvec3 way = wayTo(camera, place, is_direction);
-    const glm::dvec3 offset = camera.orthographic ? way : way / depthOf(camera, place, is_direction);
+    const glm::dvec3 shift = glm::dvec3(camera.rays.forward) - glm::dvec3(camera.axis);
+    const glm::dvec3 offset = camera.orthographic ? way : way / depthOf(camera, place, is_direction) - shift;
     const glm::dvec3 right = camera.rays.half_pixel_x;
     const glm::dvec3 down = camera.rays.half_pixel_y;
     const glm::dvec2 n = {glm::dot(offset, right) / glm::dot(right, right),

@@ -36,7 +36,7 @@ gpu::PathView viewOf(const Grid& grid, const TraceCamera& camera, const PathOpti
                      std::uint32_t height)
 {
     const float unit = 1.0F / (grid.voxel_size * static_cast<float>(grid.rootResolution()));
-    return {camera.rays, width, height, options.seed, options.lens_radius * unit, options.focus_distance * unit};
+    return {camera.rays, camera.axis, width, height, options.seed, options.lens_radius * unit, options.focus_distance * unit};
 }
 
 // Declares that pass reads what the indices of attributes come from.
@@ -350,7 +350,7 @@ void PathTracer::addFeatures(vk::FrameGraph& graph, const Batch& batch)
                                       .direct = pass.write(pixels.direct),
                                       .features = pass.readWrite(pixels.features),
                                       .origin = batch.camera.rays.origin,
-                                      .forward = batch.camera.rays.forward,
+                                      .axis = batch.camera.axis,
                                       .first_pixel = batch.first_pixel,
                                       .pixel_count = batch.pixel_count});
 }

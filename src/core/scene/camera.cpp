@@ -168,8 +168,14 @@ TraceCamera traceCamera(const ViewCamera& camera, const Grid& grid, std::uint32_
     result.orthographic = camera.orthographic;
     result.rays.origin = glm::vec3(1.0 + (camera.position - glm::dvec3(grid.origin)) / edge);
     result.rays.forward = glm::vec3(camera.forward);
-    result.rays.half_pixel_x = glm::vec3(half_pixel * camera.right);
+    result.axis = result.rays.forward;
+    result.rays.half_pixel_x = glm::vec3(half_pixel * camera.pixel_aspect * camera.right);
     result.rays.half_pixel_y = glm::vec3(-half_pixel * camera.up);
+    if (camera.shift != glm::dvec2(0.0))
+    {
+        const glm::dvec3 shift = half_height * (camera.shift.x * camera.right + camera.shift.y * camera.up);
+        (camera.orthographic ? result.rays.origin : result.rays.forward) += glm::vec3(shift);
+    }
     return result;
 }
 

@@ -14,12 +14,14 @@ namespace zvo
 struct ViewCamera
 {
     glm::dvec3 position{0.0};
-    glm::dvec3 forward{0.0, 0.0, -1.0}; // forward, right and up: length 1, orthogonal
+    glm::dvec3 forward{0.0, 0.0, -1.0}; // forward, right and up: length 1, orthogonal, of either handedness
     glm::dvec3 right{1.0, 0.0, 0.0};
     glm::dvec3 up{0.0, 1.0, 0.0};
     bool orthographic = false;
     double vertical_fov = 0.7; // radians; perspective
     double half_height = 1.0;  // world units; orthographic
+    double pixel_aspect = 1.0; // width of a pixel over its height
+    glm::dvec2 shift{0.0};     // of the picture's middle from forward, along right and up, in halves of its height
 
     bool operator==(const ViewCamera&) const = default;
 
@@ -46,15 +48,17 @@ struct ViewCamera
 struct TraceCamera
 {
     gpu::CameraRays rays;
+    gpu::vec3 axis; // PictureCamera's
     bool orthographic = false;
+
+    [[nodiscard]] gpu::PictureCamera inPicture() const { return {rays, axis}; }
 };
 
 /// The rays of a picture that is height pixels high (not 0), in the unit space of grid's octree, computed in double
-/// precision. Pixels are square, so the width does not matter.
+/// precision.
 TraceCamera traceCamera(const ViewCamera& camera, const Grid& grid, std::uint32_t height);
 
 /// The camera whose rays go through other points of the pixels: so many pixels to the right and down from the middle.
-/// The forward direction of a perspective one is not orthogonal to its pixels, but a ray's time is still the depth.
 TraceCamera shifted(const TraceCamera& camera, const glm::vec2& pixels);
 
 /// Where the rays of a sample go through pixels, from their middles: evenly over them in any number of samples, and in

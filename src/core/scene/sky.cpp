@@ -28,16 +28,16 @@ double airMass(double degrees)
     return 1.0 / (std::sin(glm::radians(above)) + 0.50572 * std::pow(above + 6.07995, -1.6364));
 }
 
-glm::dvec3 normalized(const glm::dvec3& to_sun)
+glm::dvec3 normalized(const glm::dvec3& to_sun, const glm::dvec3& up)
 {
     const double length = glm::length(to_sun);
-    return length > 0.0 ? to_sun / length : glm::dvec3(0.0, 1.0, 0.0);
+    return length > 0.0 ? to_sun / length : up;
 }
 
-// Above the horizon. direction: length 1.
-double heightOf(const glm::dvec3& direction)
+// Above the horizon. direction, up: length 1.
+double heightOf(const glm::dvec3& direction, const glm::dvec3& up)
 {
-    return glm::degrees(std::asin(std::clamp(direction.y, -1.0, 1.0)));
+    return glm::degrees(std::asin(std::clamp(glm::dot(direction, up), -1.0, 1.0)));
 }
 
 // How bright the sky is, over that of day.
@@ -55,20 +55,36 @@ double brightness(double degrees)
 
 } // namespace
 
-glm::dvec3 sunColor(const glm::dvec3& to_sun)
+glm::dmat3 uprightTurn(const glm::dvec3& up)
+{
+    const double cosine = glm::dot(kUp, up);
+    if (cosine <= -1.0)
+    {
+        return glm::dmat3(1.0, 0.0, 0.0, 0.0, -1.0, 0.0, 0.0, 0.0, -1.0);
+    }
+    glm::dmat3 turn(1.0);
+    for (glm::length_t axis = 0; axis < 3; ++axis)
+    {
+        glm::dvec3& v = turn[axis];
+        v += 2.0 * glm::dot(v, kUp) * up - glm::dot(v, kUp + up) / (1.0 + cosine) * (kUp + up);
+    }
+    return turn;
+}
+
+glm::dvec3 sunColor(const glm::dvec3& to_sun, const glm::dvec3& up)
 {
     constexpr glm::dvec3 kHighColor(1.0, 0.93, 0.82);
     constexpr glm::dvec3 kDepth(0.07, 0.165, 0.33); // of the air, by colour
-    const double degrees = heightOf(normalized(to_sun));
+    const double degrees = heightOf(normalized(to_sun, up), up);
     const glm::dvec3 left = glm::exp(-kDepth * std::max(airMass(degrees) - airMass(kHigh), 0.0));
     return smoothstep(-1.0, 1.0, degrees) * kHighColor * left; // the disc goes down
 }
 
-gpu::Sky skyOf(const glm::dvec3& to_sun)
+gpu::Sky skyOf(const glm::dvec3& to_sun, const glm::dvec3& up)
 {
-    const glm::dvec3 direction = normalized(to_sun);
-    const double degrees = heightOf(direction);
-    const glm::dvec3 sun = sunColor(direction);
+    const glm::dvec3 direction = normalized(to_sun, up);
+    const double degrees = heightOf(direction, up);
+    const glm::dvec3 sun = sunColor(direction, up);
     const double day = brightness(degrees);
     const double dusk = 1.0 - smoothstep(0.0, 25.0, degrees);
     const double after = smoothstep(0.0, 8.0, -degrees); // sunset
@@ -82,21 +98,24 @@ gpu::Sky skyOf(const glm::dvec3& to_sun)
 
     // What the ground reflects, and what surfaces receive of the sky, by mixtures that give the day its values.
     const glm::dvec3 sky = 0.5 * (zenith + horizon);
-    const glm::dvec3 ground = glm::dvec3(0.145, 0.138, 0.13) * (kSunStrength * std::max(direction.y, 0.0) * sun + sky);
+    const glm::dvec3 ground =
+        glm::dvec3(0.145, 0.138, 0.13) * (kSunStrength * std::max(glm::dot(direction, up), 0.0) * sun + sky);
     const glm::dvec3 above = glm::dvec3(0.40, 0.48, 0.62) / glm::dvec3(0.44, 0.57, 0.80) * sky;
     const glm::dvec3 below = 0.57 * ground;
-    return {gpu::vec3(direction), gpu::vec3(sun),    gpu::vec3(zenith), gpu::vec3(horizon),
-            gpu::vec3(glow),      gpu::vec3(ground), gpu::vec3(above),  gpu::vec3(below)};
+    return {gpu::vec3(direction), gpu::vec3(up),     gpu::vec3(sun),   gpu::vec3(zenith), gpu::vec3(horizon),
+            gpu::vec3(glow),      gpu::vec3(ground), gpu::vec3(above), gpu::vec3(below)};
 }
 
-double daylightExposure(const glm::dvec3& to_sun)
+double daylightExposure(const glm::dvec3& to_sun, const glm::dvec3& up)
 {
     constexpr double kPart = 0.6; // of the stops that light loses
     constexpr double kMost = 12;
     constexpr glm::dvec3 kLuminance(0.2126, 0.7152, 0.0722);
-    const auto light = [&](const glm::dvec3& direction)
-    { return glm::dot(kLuminance, 0.5 * kSunStrength * sunColor(direction) + glm::dvec3(skyOf(direction).above)); };
-    return std::min(std::pow(light({0.0, 1.0, 0.0}) / light(to_sun), kPart), kMost);
+    const auto light = [&](const glm::dvec3& direction) {
+        return glm::dot(kLuminance,
+                        0.5 * kSunStrength * sunColor(direction, up) + glm::dvec3(skyOf(direction, up).above));
+    };
+    return std::min(std::pow(light(up) / light(to_sun), kPart), kMost);
 }
 
 glm::dvec3 sunAtHour(double hour)

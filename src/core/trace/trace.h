@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/scene/camera.h"
+#include "core/scene/sky.h"
 #include "core/tree/device_tree.h"
 #include "shared/sky.h"
 #include "trace/light.h"
@@ -43,6 +44,7 @@ struct TraceOptions
     bool beam = true; // begin at what a tile's rays may hit, and below the root; the picture is the same
     bool shadows = TraceInfo().shadows;
     glm::dvec3 to_sun = {TraceInfo().to_sun[0], TraceInfo().to_sun[1], TraceInfo().to_sun[2]};
+    glm::dvec3 up = kUp; // length 1
     float sun = TraceInfo().sun;
     float exposure = TraceInfo().exposure;
     std::uint32_t occlusion_rays = TraceInfo().occlusion_rays;

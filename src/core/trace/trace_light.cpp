@@ -17,7 +17,7 @@ namespace
 gpu::vec3 sunDirection(const TraceOptions& options)
 {
     const double length = glm::length(options.to_sun);
-    return length > 0.0 ? gpu::vec3(options.to_sun / length) : gpu::vec3(0.0F, 1.0F, 0.0F);
+    return length > 0.0 ? gpu::vec3(options.to_sun / length) : gpu::vec3(options.up);
 }
 
 // Records the pass that fills the picture with what rays see that hit nothing.
@@ -50,9 +50,9 @@ void drawBackground(vk::FrameGraph& graph, const TraceCamera& camera, const Trac
 gpu::vec2 depthRange(const Grid& grid, const TraceCamera& camera)
 {
     const float edge = static_cast<float>(grid.resolution()) / static_cast<float>(grid.rootResolution());
-    const gpu::vec3& forward = camera.rays.forward;
-    const float middle = glm::dot(gpu::vec3(1.0F + 0.5F * edge) - camera.rays.origin, forward);
-    const float reach = 0.5F * edge * (std::fabs(forward.x) + std::fabs(forward.y) + std::fabs(forward.z));
+    const gpu::vec3& axis = camera.axis;
+    const float middle = glm::dot(gpu::vec3(1.0F + 0.5F * edge) - camera.rays.origin, axis);
+    const float reach = 0.5F * edge * (std::fabs(axis.x) + std::fabs(axis.y) + std::fabs(axis.z));
     return {std::max(middle - reach, 0.0F), std::max(middle + reach, 1e-6F)};
 }
 
@@ -176,7 +176,7 @@ void traceLight(vk::FrameGraph& graph, const DeviceTree& tree, const NodePaths& 
 void shade(vk::FrameGraph& graph, const DeviceTree& tree, const TraceCamera& camera, const TraceOptions& options,
            TraceBuffers& buffers, const TexelTarget& target)
 {
-    graph.update(buffers.sky, 0, std::array{skyOf(options.to_sun)});
+    graph.update(buffers.sky, 0, std::array{skyOf(options.to_sun, options.up)});
     drawBackground(graph, camera, options, buffers, target);
     if (options.view == View::Color)
     {

@@ -65,7 +65,7 @@ bool findsDevice()
     bool found = false;
     for (VkPhysicalDevice device : devices)
     {
-        const zvo::DeviceReport report = zvo::query(get, instance, device);
+        const zvo::DeviceReport report = zvo::query(get, instance, device, application.apiVersion);
         std::printf("%s, %s: %s\n", report.name.c_str(), report.type.c_str(),
                     report.usable() ? "usable" : "not usable");
         found = found || report.usable();
