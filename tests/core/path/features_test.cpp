@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 namespace zvo
@@ -53,16 +54,18 @@ glm::dvec2 pixelOf(const ViewCamera& view, const glm::dvec3& place)
     const glm::dvec3 way = place - view.position;
     const double scale =
         view.orthographic ? view.half_height : std::tan(view.vertical_fov / 2) * glm::dot(way, view.forward);
-    return {kWallWidth / 2.0 + kWallHeight / 2.0 * glm::dot(way, view.right) / scale - 0.5,
-            kWallHeight / 2.0 - kWallHeight / 2.0 * glm::dot(way, view.up) / scale - 0.5};
+    const double right = (glm::dot(way, view.right) / scale - view.shift.x) / view.pixel_aspect;
+    const double up = glm::dot(way, view.up) / scale - view.shift.y;
+    return {kWallWidth / 2.0 + kWallHeight / 2.0 * right - 0.5, kWallHeight / 2.0 - kWallHeight / 2.0 * up - 0.5};
 }
 
 // The place on the wall at the middle of a pixel.
 glm::dvec3 placeOf(const ViewCamera& view, std::uint32_t x, std::uint32_t y)
 {
     const double half = view.orthographic ? view.half_height : std::tan(view.vertical_fov / 2);
-    const glm::dvec3 offset = half * ((2.0 * x + 1.0 - kWallWidth) / kWallHeight * view.right -
-                                      (2.0 * y + 1.0 - kWallHeight) / kWallHeight * view.up);
+    const double right = (2.0 * x + 1.0 - kWallWidth) / kWallHeight * view.pixel_aspect + view.shift.x;
+    const double down = (2.0 * y + 1.0 - kWallHeight) / kWallHeight - view.shift.y;
+    const glm::dvec3 offset = half * (right * view.right - down * view.up);
     const glm::dvec3 origin = view.position + (view.orthographic ? offset : glm::dvec3(0));
     const glm::dvec3 direction = view.forward + (view.orthographic ? glm::dvec3(0) : offset);
     return origin + (4.0 - origin.z) / direction.z * direction;
@@ -71,12 +74,18 @@ glm::dvec3 placeOf(const ViewCamera& view, std::uint32_t x, std::uint32_t y)
 TEST(PathFeatures, OfAWall)
 {
     const DeviceTree tree = wall();
-    for (const bool orthographic : {false, true})
+    for (const auto& [orthographic, is_plain] : {std::pair(false, true), {true, true}, {false, false}, {true, false}})
     {
         ViewCamera view = ViewCamera::lookAt({9.0, 7.0, 14.0}, {8.0, 8.0, 4.0}, 0.5);
         ViewCamera before = ViewCamera::lookAt({8.5, 6.0, 15.0}, {8.0, 8.5, 4.0}, 0.5);
         view.orthographic = before.orthographic = orthographic;
         view.half_height = before.half_height = 3.0;
+        if (!is_plain)
+        {
+            view.shift = {0.4, -0.3};
+            before.shift = {-0.2, 0.1};
+            view.pixel_aspect = before.pixel_aspect = 1.2;
+        }
         const AovImages images = aovs(tree, view, before);
         const glm::dvec3 albedo = test::albedoOf({{}, kColor});
         for (std::uint32_t i = 0; i < kWallWidth * kWallHeight; ++i)
