@@ -380,8 +380,7 @@ void addOptions(CLI::App& algebra, AlgebraOptions& options)
     addText(algebra, "--components", options.components, "FILE",
             "a CSV file of the components of the result: their voxels, and the cell of one of these")
         ->group("Output");
-    addStructureOption(algebra, options.structure,
-                       "of a .zvo output, an octree or a DAG (default: a DAG, or an octree of what is filled)");
+    addStructureOption(algebra, options.structure, "of a .zvo output, an octree or a DAG (default: a DAG)");
     addTreeOutput(algebra, options.output, options.format, options.strict);
     algebra.get_option("--output")->required(false);
     addDeviceOptions(algebra, options.device);
