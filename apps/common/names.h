@@ -52,6 +52,7 @@ inline constexpr auto kCoverages =
     std::to_array<Named<Coverage>>({{"thin", Coverage::Thin}, {"conservative", Coverage::Conservative}});
 inline constexpr auto kFills = std::to_array<Named<Fill>>(
     {{"none", Fill::None}, {"solid", Fill::Solid}, {"parity", Fill::Parity}, {"robust", Fill::Robust}});
+inline constexpr auto kShells = std::to_array<Named<Shell>>({{"surface", Shell::Surface}, {"none", Shell::None}});
 inline constexpr auto kStructures =
     std::to_array<Named<TreeStructure>>({{"svo", TreeStructure::Svo}, {"svdag", TreeStructure::Svdag}});
 inline constexpr auto kMergeRules = std::to_array<Named<MergeRule>>(

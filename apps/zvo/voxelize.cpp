@@ -199,9 +199,11 @@ Json builtJson(VoxelRun& run, const BuildFileOptions& options, const Built& buil
 
 void distanceFile(const BuildFileOptions& options)
 {
-    if (options.structure || options.voxels.attributes != VoxelOptions().attributes)
+    if (options.structure || options.voxels.attributes != VoxelOptions().attributes ||
+        options.voxels.shell != VoxelOptions().shell)
     {
-        throw Error(ErrorCode::Usage, "--distance goes without --structure and --attributes: it makes no tree");
+        throw Error(ErrorCode::Usage,
+                    "--distance goes without --structure, --attributes and --shell: it makes no tree");
     }
     VoxelOptions voxels = options.voxels;
     voxels.fill = voxels.fill == Fill::None ? Fill::Solid : voxels.fill;

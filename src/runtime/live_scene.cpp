@@ -79,10 +79,13 @@ LiveScene::LiveScene(vk::HeadlessDevice& device, AnimatedScene animated, const G
     const bool keep_sums = options.attributes && dynamic.merge == MergeRule::Average;
     Scene fixed = std::exchange(m_animated.fixed, {});
     m_animated.fixed.cameras = fixed.cameras;
-    StaticPart part = makeStaticPart(
-        device, std::move(fixed), grid,
-        {.coverage = options.coverage, .attributes = options.attributes, .keep_sums = keep_sums, .fill = options.fill},
-        options.structure, listener, dynamic.emission_scale);
+    StaticPart part = makeStaticPart(device, std::move(fixed), grid,
+                                     {.coverage = options.coverage,
+                                      .attributes = options.attributes,
+                                      .keep_sums = keep_sums,
+                                      .fill = options.fill,
+                                      .shell = options.shell},
+                                     options.structure, listener, dynamic.emission_scale);
     m_info.fixed = std::move(part.info);
     if (part.tree.filled && part.tree.isDag() && m_animated.objects.empty())
     {

@@ -88,6 +88,10 @@ TreePool filledDagPool(const TreeData& tree)
     const std::uint64_t node_words = 2 * (tree.nodes.size() + 1);
     const ListPacking packing = ListPacking::tightest(node_words, node_words, gpu::kFullEntries + tree.lists.size());
     pool.entries_per_word = packing.per_word;
+    if (!packing.fits(gpu::kLeafWords))
+    {
+        throwUncountable("words of nodes");
+    }
     const auto full_base = gpu::kChildList | static_cast<gpu::uint>(packing.firstEntry());
     const auto moved = static_cast<gpu::uint>(packing.firstEntry() + gpu::kFullEntries - tree.packing().firstEntry());
 
