@@ -291,14 +291,14 @@ void buildFile(const BuildFileOptions& options)
         distanceFile(options);
         return;
     }
-    const bool is_filled = options.voxels.fill != Fill::None;
+    const bool is_tiled = options.voxels.fill == Fill::None && options.voxels.shell == Shell::Surface;
     const bool is_dag = options.structure.value_or(TreeStructure::Svdag) == TreeStructure::Svdag;
     checkPaths(options.output, options.voxels.scenes);
     VoxelRun run(options.voxels, options.device, options.output);
 
     run.progress.begin("building");
     Built built;
-    run.watch([&] { built = is_dag && !is_filled ? buildTiledDag(run, options) : buildWhole(run, options, is_dag); });
+    run.watch([&] { built = is_dag && is_tiled ? buildTiledDag(run, options) : buildWhole(run, options, is_dag); });
     run.freeScene();
     warnOfDropped(built.tree.voxel_count, built.dropped, run.counts, options.voxels.load.strict);
     warnOfOpenSurfaces(built.open, options.voxels.load.strict);
