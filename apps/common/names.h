@@ -59,6 +59,7 @@ inline constexpr auto kAxes = std::to_array<Named<UpAxis>>({{"x", UpAxis::X},
                                                             {"-x", UpAxis::MinusX},
                                                             {"-y", UpAxis::MinusY},
                                                             {"-z", UpAxis::MinusZ}});
+inline constexpr auto kShells = std::to_array<Named<Shell>>({{"surface", Shell::Surface}, {"none", Shell::None}});
 inline constexpr auto kStructures =
     std::to_array<Named<TreeStructure>>({{"svo", TreeStructure::Svo}, {"svdag", TreeStructure::Svdag}});
 inline constexpr auto kMergeRules = std::to_array<Named<MergeRule>>(

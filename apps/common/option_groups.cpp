@@ -105,6 +105,14 @@ void addFillOption(CLI::App& app, Fill& fill)
         "none, solid, parity or robust");
 }
 
+void addShellOption(CLI::App& app, Shell& shell)
+{
+    addNamed(app, "--shell", shell, kShells,
+             "with --fill, which voxels of the surface there are: all, or none but those whose centres are inside "
+             "(default surface)",
+             "surface or none");
+}
+
 void addAttributesOption(CLI::App& app, bool& attributes)
 {
     static constexpr auto kNames = std::to_array<Named<bool>>({{"full", true}, {"none", false}});

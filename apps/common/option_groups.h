@@ -52,6 +52,7 @@ std::string oneOf(std::string_view option, std::string_view text, std::initializ
 void addDeviceOptions(CLI::App& app, DeviceOptions& options);
 void addCoverageOption(CLI::App& app, Coverage& coverage);
 void addFillOption(CLI::App& app, Fill& fill);
+void addShellOption(CLI::App& app, Shell& shell);
 void addAttributesOption(CLI::App& app, bool& attributes);
 void addAttributesOption(CLI::App& app, AttributeFormat& attributes); // Bytes8 or None
 

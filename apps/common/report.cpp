@@ -80,6 +80,7 @@ Json headJson(const std::string& schema, const vk::DeviceReport& device, const V
     json["resolution"] = grid.resolution();
     json["coverage"] = coverageName(options.coverage);
     json["fill"] = nameOf(kFills, options.fill);
+    json["shell"] = nameOf(kShells, options.shell);
     json["attributes"] = options.hasAttributes() ? "full" : "none";
     json["snapping"] = "lattice256";
     return json;

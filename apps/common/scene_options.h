@@ -51,6 +51,7 @@ struct VoxelOptions
     std::uint32_t default_margin = 0;
     Coverage coverage = TreeBuildInfo().coverage;
     Fill fill = Fill::None;
+    Shell shell = Shell::Surface;
     AttributeFormat attributes = AttributeFormat::Bytes8; // of the voxels; packed formats only for build
     std::optional<Bounds> bounds;                         // the cube from this box's minimum corner on
     std::optional<GridPosition> grid_position;            // exactly this grid; neither: the cube around the scene
@@ -59,7 +60,7 @@ struct VoxelOptions
     [[nodiscard]] bool hasAttributes() const { return attributes != AttributeFormat::None; }
     [[nodiscard]] BuildOptions build() const
     {
-        return {.coverage = coverage, .attributes = hasAttributes(), .fill = fill};
+        return {.coverage = coverage, .attributes = hasAttributes(), .fill = fill, .shell = shell};
     }
 };
 

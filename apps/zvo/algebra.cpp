@@ -205,11 +205,9 @@ void algebra(const AlgebraOptions& options)
     if (output)
     {
         TreeData tree = downloadTree(*device, result);
-        const TreeStructure structure =
-            options.structure.value_or(result.filled ? TreeStructure::Svo : TreeStructure::Svdag);
+        const TreeStructure structure = options.structure.value_or(TreeStructure::Svdag);
         if (format == "zvo" && structure == TreeStructure::Svdag && !tree.nodes.empty())
         {
-            requireUnfilled(result, "be compressed");
             tree = compressTree(*device, std::move(tree));
         }
         writeTree(tree, format, *output, options.strict);

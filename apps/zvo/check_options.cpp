@@ -56,6 +56,7 @@ void checkTreeOptions(const RenderOptions& options)
         {"--margin", voxels.margin.has_value()},
         {"--coverage", voxels.coverage != plain.coverage},
         {"--fill", voxels.fill != plain.fill},
+        {"--shell", voxels.shell != plain.shell},
         {"--attributes", voxels.attributes != plain.attributes},
         {"--bounds", voxels.bounds.has_value()},
         {"--grid", voxels.grid_position.has_value()},

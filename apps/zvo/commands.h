@@ -96,7 +96,7 @@ struct BuildFileOptions
 {
     VoxelOptions voxels;
     std::optional<std::uint32_t> distance;  // voxels: distances in place of a tree
-    std::optional<TreeStructure> structure; // not given: a DAG, or what is filled, an octree
+    std::optional<TreeStructure> structure; // not given: a DAG
     DeviceOptions device;
     OutputOptions output;
 };
@@ -141,7 +141,7 @@ struct EditOptions
     std::filesystem::path script;
     OutputOptions output;
     std::string format;                     // empty: the output's extension says
-    std::optional<TreeStructure> structure; // of a .zvo output; not given: as the file, or what is filled, an octree
+    std::optional<TreeStructure> structure; // of a .zvo output; not given: as the file
     bool strict = false;                    // refuses to leave something out
     DeviceOptions device;
 };
@@ -179,7 +179,7 @@ struct AlgebraOptions
     std::string components;         // a CSV file of their sizes, or empty
     OutputOptions output;           // its path may be empty
     std::string format;             // empty: the output's extension says
-    std::optional<TreeStructure> structure; // of a .zvo output; not given: a DAG, or what is filled, an octree
+    std::optional<TreeStructure> structure; // of a .zvo output; not given: a DAG
     bool strict = false;                    // refuses to leave something out
     DeviceOptions device;
 };

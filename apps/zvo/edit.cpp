@@ -125,11 +125,10 @@ void edit(const EditOptions& options)
     const std::shared_ptr<vk::HeadlessDevice> device = openDevice(options.device);
     TreeData tree = loadTree(
         options.file, [&]() -> vk::HeadlessDevice& { return *device; }, options.strict);
-    const bool is_filled = tree.isFilled();
-    const TreeStructure structure = options.structure.value_or(is_filled ? TreeStructure::Svo : tree.structure);
-    if (is_filled && structure == TreeStructure::Svdag)
+    const TreeStructure structure = options.structure.value_or(tree.structure);
+    if (tree.isFilled() && tree.structure == TreeStructure::Svdag && !isPacked(tree.attributeFormat()))
     {
-        throw Error(ErrorCode::Usage, "a filled tree goes with --structure svo alone");
+        tree = flattenTree(*device, uploadTree(*device, tree)); // a filled DAG is not edited in place
     }
     std::optional<Editor> editor(std::in_place, *device, tree, options.strict);
     if (!editor->scene().canEdit())

@@ -98,7 +98,8 @@ public:
                         {.coverage = m_options.voxels.coverage,
                          .attributes = m_options.voxels.hasAttributes(),
                          .structure = structure(),
-                         .fill = m_options.voxels.fill});
+                         .fill = m_options.voxels.fill,
+                         .shell = m_options.voxels.shell});
         for (std::uint32_t i = 0; goesOn(i); ++i)
         {
             m_progress.begin("updating");

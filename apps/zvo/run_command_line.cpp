@@ -172,6 +172,7 @@ void addOptions(CLI::App& render, RenderOptions& options)
 {
     addVoxelOptions(render, options.voxels, "; or one .zvo or .vox file, which needs no voxelizing");
     addFillOption(render, options.voxels.fill);
+    addShellOption(render, options.voxels.shell);
     addAttributesOption(render, options.voxels.attributes);
     render
         .add_option_function<std::string>(
@@ -238,6 +239,7 @@ void addOptions(CLI::App& voxelize, VoxelizeOptions& options)
 {
     addVoxelOptions(voxelize, options.voxels);
     addFillOption(voxelize, options.voxels.fill);
+    addShellOption(voxelize, options.voxels.shell);
     addAttributesOption(voxelize, options.voxels.attributes);
     addOutputOptions(voxelize, options.output, "the voxels, a .morton or .ply file; - is standard output");
     addValue(
@@ -254,6 +256,7 @@ void addOptions(CLI::App& build, BuildFileOptions& options)
 {
     addVoxelOptions(build, options.voxels);
     addFillOption(build, options.voxels.fill);
+    addShellOption(build, options.voxels.shell);
     addValue(build, "--distance", options.distance, integerIn(1, DistanceOptions::kBandMax), "VOXELS",
              "in place of a tree, the signed distances of voxels' centres to the surface, as far as that: a level set "
              "in a .nvdb file")
@@ -380,8 +383,7 @@ void addOptions(CLI::App& algebra, AlgebraOptions& options)
     addText(algebra, "--components", options.components, "FILE",
             "a CSV file of the components of the result: their voxels, and the cell of one of these")
         ->group("Output");
-    addStructureOption(algebra, options.structure,
-                       "of a .zvo output, an octree or a DAG (default: a DAG, or an octree of what is filled)");
+    addStructureOption(algebra, options.structure, "of a .zvo output, an octree or a DAG (default: a DAG)");
     addTreeOutput(algebra, options.output, options.format, options.strict);
     algebra.get_option("--output")->required(false);
     addDeviceOptions(algebra, options.device);

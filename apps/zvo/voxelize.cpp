@@ -140,9 +140,16 @@ struct Built
     OpenSurfaces open = {};
 };
 
-Built buildSvo(VoxelRun& run, const BuildFileOptions& options)
+// An octree, or the DAG of a whole one.
+Built buildWhole(VoxelRun& run, const BuildFileOptions& options, bool is_dag)
 {
     BuildResult result = buildOctree(run.device(), run.scene(), run.grid, options.voxels.build());
+    if (is_dag)
+    {
+        CompressResult compressed = compress(run.device(), std::move(result.octree));
+        result.octree = std::move(compressed.dag);
+        result.passes.insert(result.passes.end(), compressed.passes.begin(), compressed.passes.end());
+    }
     const std::vector<vk::PassTime> packing = packTree(run.device(), options.voxels.attributes, result.octree);
     result.passes.insert(result.passes.end(), packing.begin(), packing.end());
     return {downloadTree(run.device(), result.octree),
@@ -153,7 +160,7 @@ Built buildSvo(VoxelRun& run, const BuildFileOptions& options)
             result.open};
 }
 
-Built buildSvdag(VoxelRun& run, const BuildFileOptions& options)
+Built buildTiledDag(VoxelRun& run, const BuildFileOptions& options)
 {
     TiledOptions tiled{.coverage = options.voxels.coverage, .attributes = options.voxels.attributes};
     tiled.progress = [&run](double done) { run.progress.within(done); };
@@ -192,9 +199,11 @@ Json builtJson(VoxelRun& run, const BuildFileOptions& options, const Built& buil
 
 void distanceFile(const BuildFileOptions& options)
 {
-    if (options.structure || options.voxels.attributes != VoxelOptions().attributes)
+    if (options.structure || options.voxels.attributes != VoxelOptions().attributes ||
+        options.voxels.shell != VoxelOptions().shell)
     {
-        throw Error(ErrorCode::Usage, "--distance goes without --structure and --attributes: it makes no tree");
+        throw Error(ErrorCode::Usage,
+                    "--distance goes without --structure, --attributes and --shell: it makes no tree");
     }
     VoxelOptions voxels = options.voxels;
     voxels.fill = voxels.fill == Fill::None ? Fill::Solid : voxels.fill;
@@ -282,19 +291,14 @@ void buildFile(const BuildFileOptions& options)
         distanceFile(options);
         return;
     }
-    const bool is_filled = options.voxels.fill != Fill::None;
-    const bool is_dag =
-        options.structure.value_or(is_filled ? TreeStructure::Svo : TreeStructure::Svdag) == TreeStructure::Svdag;
-    if (is_filled && is_dag)
-    {
-        throw Error(ErrorCode::Usage, "--fill goes with --structure svo alone");
-    }
+    const bool is_tiled = options.voxels.fill == Fill::None && options.voxels.shell == Shell::Surface;
+    const bool is_dag = options.structure.value_or(TreeStructure::Svdag) == TreeStructure::Svdag;
     checkPaths(options.output, options.voxels.scenes);
     VoxelRun run(options.voxels, options.device, options.output);
 
     run.progress.begin("building");
     Built built;
-    run.watch([&] { built = is_dag ? buildSvdag(run, options) : buildSvo(run, options); });
+    run.watch([&] { built = is_dag && is_tiled ? buildTiledDag(run, options) : buildWhole(run, options, is_dag); });
     run.freeScene();
     warnOfDropped(built.tree.voxel_count, built.dropped, run.counts, options.voxels.load.strict);
     warnOfOpenSurfaces(built.open, options.voxels.load.strict);

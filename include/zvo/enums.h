@@ -36,6 +36,14 @@ enum
     ZVO_COVERAGE_THIN = 1          ///< 6-separating: no path along the voxels' faces leads through the surface
 };
 
+/// Which voxels of the surface there are where voxels are filled (docs/voxelization.md#filling).
+typedef uint32_t ZvoShell;
+enum
+{
+    ZVO_SHELL_SURFACE = 0, ///< all that triangles cover
+    ZVO_SHELL_NONE = 1     ///< those that are inside by their centres, as all others are
+};
+
 /// Which voxels count as inside the triangles, by the winding number of their centres (docs/voxelization.md#filling).
 typedef uint32_t ZvoFill;
 enum
@@ -201,6 +209,12 @@ enum class Fill : ZvoFill
     Solid = ZVO_FILL_SOLID,
     Parity = ZVO_FILL_PARITY,
     Robust = ZVO_FILL_ROBUST,
+};
+
+enum class Shell : ZvoShell
+{
+    Surface = ZVO_SHELL_SURFACE,
+    None = ZVO_SHELL_NONE,
 };
 
 enum class TreeOperation : ZvoTreeOperation

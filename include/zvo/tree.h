@@ -65,8 +65,9 @@ struct TreeBuildInfo
     GridInfo grid;
     Coverage coverage = Coverage::Thin;
     AttributeFormat format = AttributeFormat::Bytes8; // None: no attributes
-    bool keep_sums = false; // for a DynamicTree with MergeRule::Average: 32 bytes a voxel more. Only with Bytes8
-    Fill fill = Fill::None; // also the voxels inside; of a grid of depth 3 or more. Not compressed
+    bool keep_sums = false;       // for a DynamicTree with MergeRule::Average: 32 bytes a voxel more. Only with Bytes8
+    Fill fill = Fill::None;       // also the voxels inside; of a grid of depth 3 or more
+    Shell shell = Shell::Surface; // None: only what is inside; with Fill::Solid or Parity
 };
 
 /// Work that makes a tree in steps. Between steps zvo reads sizes that only the device knows, and allocates exactly

@@ -358,12 +358,12 @@ typedef struct ZvoTreeBuildInfo
     ZvoAttributeFormat format;
     VkBool32 keep_sums;
     ZvoFill fill;
-    uint32_t reserved;
+    ZvoShell shell;
 } ZvoTreeBuildInfo;
 
 #define ZVO_TREE_BUILD_INFO_INIT                                                                                       \
     ZVO_STRUCT_INIT(ZvoTreeBuildInfo, ZVO_GRID_INIT, ZVO_COVERAGE_THIN, ZVO_ATTRIBUTE_FORMAT_BYTES8, VK_FALSE,         \
-                    ZVO_FILL_NONE, 0)
+                    ZVO_FILL_NONE, ZVO_SHELL_SURFACE)
 
 /// Triangles that were left out, by reason.
 typedef struct ZvoDroppedTriangles

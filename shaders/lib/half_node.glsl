@@ -27,6 +27,7 @@ uvec2 loadHalf(uint half_index)
 // The entry of a list with an index.
 uint loadEntry(uint index, uint per_word)
 {
+    per_word &= ~kFilledDag;
     uvec2 word = loadHalf(index / per_word);
     uint place = index % per_word;
     if (per_word == 3u) // 21 bits each, the middle one in both halves

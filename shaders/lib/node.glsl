@@ -5,9 +5,16 @@
 
 #include "shared/svdag.h"
 
-// The entry with an index. per_word: of all entries of the pool, 2, 3 or 4, best a constant.
+// Whether a tree is a filled DAG. per_word: of entries, as kernels take it.
+bool isFilledDag(uint per_word)
+{
+    return (per_word & kFilledDag) != 0u;
+}
+
+// The entry with an index. per_word: of all entries of the pool, 2, 3 or 4, best a constant; kFilledDag may be set.
 uint listEntry(uint64_t_ConstPtr pool, uint index, uint per_word)
 {
+    per_word &= ~kFilledDag;
     if (per_word != 3u)
     {
         // Reads half words, because shifts of 64 bits are slow.

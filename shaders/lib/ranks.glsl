@@ -15,7 +15,7 @@ struct RankedNode
 {
     uint node;   // reference
     uint voxels; // before those below it
-    uint rank;   // depth first
+    uint rank;   // depth first; kInteriorIndex or more below a full node
 };
 
 // The index of the entry that names the child in a cell.
@@ -32,7 +32,8 @@ void descend(RankSource source, uint cell, inout RankedNode at)
     uvec2 before = unpackUint2x32(uint64_t_ConstPtr(uint64_t(source.before)).data[index]);
     at.node = listEntry(uint64_t_ConstPtr(uint64_t(source.pool)), index, kEntriesPerWord);
     at.voxels += before.x;
-    at.rank += 1u + before.y;
+    uint below_full = isFilledDag(kEntriesPerWord) ? (at.rank | before.y) & kInteriorIndex : 0u;
+    at.rank = (at.rank + 1u + before.y) | below_full;
 }
 
 // From a node of an overlay to the child in a cell, unless that stands in a list of the DAG below.
@@ -69,10 +70,21 @@ uint voxelsBeforeLeaf(RankSource source, uint index)
     return bitfieldExtract(loadBeforeLeaves(source, entry >> 1), int(16u * (entry & 1u)), 16);
 }
 
+// The index of a voxel's attributes. index: as the traversal leaves it; before: voxels before those of its leaf.
+uint voxelRank(uint index, uint before)
+{
+    return isFilledDag(kEntriesPerWord) && index >= kInteriorIndex ? kInteriorIndex : index + before;
+}
+
 // From a parent of leaves to the leaf in a cell, whose node is not looked up.
 void descendToLeaf(RankSource source, uint cell, bool with_rank, inout RankedNode at)
 {
     uint index = entryIndex(source, at.node, cell);
+    if (isFilledDag(kEntriesPerWord) && index < source.first_short_entry) // of a full node
+    {
+        at.rank |= kInteriorIndex;
+        return;
+    }
     at.voxels += voxelsBeforeLeaf(source, index);
     if (with_rank)
         at.rank += 1u + index - entryIndex(source, at.node, 0u);

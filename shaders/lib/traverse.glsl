@@ -134,25 +134,27 @@ void beginBelowRoot(vec3 origin, vec3 inverse, uint mirror, uvec3 limits, inout 
 #endif
 
 // The attribute index of the voxel in a cell of a leaf, or kInteriorIndex; of a leaf word of a DAG, the voxel's number
-// in the leaf.
+// in the leaf, or kInteriorIndex.
 uint voxelIndex(uint leaf, uint cell)
 {
     bool is_word = isLeafWord(leaf);
+    bool filled_dag = isFilledDag(kEntriesPerWord);
+    bool may_be_filled = kEntriesPerWord == 0u || filled_dag;
     uint pair = is_word ? leafWord(leaf) >> 1 : leaf;
     uint surface = pair;
     if (kEntriesPerWord == 0u && is_word)
         surface += loadLeafGroup(1u).x;
     uvec4 words = loadPair(surface);
-    if (kEntriesPerWord == 0u && !is_word && isFullNode(words.y)) // of a full node, or with the voxels of a leaf word
+    if (may_be_filled && !is_word && isFullNode(words.y)) // of a full node, or with the voxels of a leaf word
     {
         is_word = isLeafWord(words.y);
-        if (!is_word)
+        if (filled_dag || !is_word)
             return kInteriorIndex;
         leaf = words.y & ~kFullNodes;
         pair = leafWord(leaf) >> 1;
         words = loadPair(pair + loadLeafGroup(1u).x);
     }
-    bool is_second = is_word && (leaf & 1u) != 0u;
+    bool is_second = is_word && (filled_dag || (leaf & 1u) != 0u);
     bool is_upper = cell >= 32u;
     uint below = (1u << (cell & 31u)) - 1u;
     uint low = is_second ? words.z : words.x;
@@ -165,6 +167,9 @@ uint voxelIndex(uint leaf, uint cell)
     {
         index += voxelsBeforePair(loadLeafGroup(kFirstLeafGroup + pair / (kLeafGroup / 2u)), pair) +
                  (is_second ? bitCount(words.x) + bitCount(words.y) : 0u);
+    }
+    if (may_be_filled)
+    {
         bool on_surface = (((is_upper ? high : low) >> (cell & 31u)) & 1u) != 0u;
         index = on_surface ? index : kInteriorIndex;
     }

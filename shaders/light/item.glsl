@@ -20,6 +20,9 @@ Node loadNode(uint reference)
 // A leaf of it, with the voxels that have attributes.
 Node loadLeaf(uint reference)
 {
+    if (isFilledDag(kEntriesPerWord) && !isLeafWord(reference))
+        return Node(0u, 0u, 0u, 0u); // a full node
+    reference += isFilledDag(kEntriesPerWord) ? 1u : 0u;
     uint64_t leaf_groups = kEntriesPerWord == 0u ? uint64_t(params.tree.data[0].source.before) : 0ul;
     return loadSurfaceOf(Node_ConstPtr(uint64_t(params.tree.data[0].source.pool)), uvec2_ConstPtr(leaf_groups),
                          reference);

@@ -43,6 +43,8 @@
 //
 // Bases that name them have the flag kFullNodes, which vanishes where references become numbers of half nodes.
 //
+// A filled DAG has them in another form (shared/svdag.h).
+//
 // Leaves of overlays are nodes with one mask. One that is a copy of a filled tree's leaf word has, as both bases,
 // kFullNodes | the reference of that word, whose voxels it has; a copy of a full node keeps the bases of a full node.
 #ifndef ZVO_SHADERS_SHARED_OCTREE_H

@@ -10,8 +10,11 @@
 #include "octree/octree.h"
 #include "shared/svdag.h"
 
+// Children that are candidates. Those of an octree's full node are none.
 uint childCount(Node node)
 {
+    if (kEntriesPerWord == 0u && isFullNode(node.base_lo))
+        return 0u;
     return bitCount(node.mask_lo) + bitCount(node.mask_hi);
 }
 

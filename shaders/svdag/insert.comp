@@ -20,11 +20,18 @@ Node loadCandidate(uint number)
     return params.nodes.data[number];
 }
 
+// The mask of the surface in a leaf of a filled octree.
+uvec2 surfaceMask(uint number)
+{
+    return nodeMask(params.nodes, number + params.reference + params.surface);
+}
+
 // Compares the children of inner nodes. equal: their masks are equal.
 bool haveEqualChildren(Node a, Node b, bool equal)
 {
     uint_ConstPtr classes = uint_ConstPtr(uint64_t(params.classes));
     uint count = equal ? childCount(a) : 0u;
+    equal = equal && childCount(b) == count; // one of them may be full
     for (uint i = 0u; equal && i < count; i += 4u)
     {
         uvec4 four = fourOf(count, i);
@@ -41,7 +48,9 @@ void main()
         return;
     uint self = params.first_node + index;
     Node node = loadCandidate(self);
+    uvec2 surface = kLeaves && kFilled ? surfaceMask(self) : uvec2(0u);
     uvec2 hash = kLeaves ? uvec2(hashMask(node.mask_lo, node.mask_hi), 0u) : params.hashes.data[index];
+    hash.x ^= kLeaves && kFilled ? hashMask(~surface.x, surface.y) : 0u;
     uint slot = hash.x & params.slot_mask;
     uint first = self; // of the class
     bool searching = true;
@@ -55,6 +64,8 @@ void main()
         }
         Node other = loadCandidate(first);
         bool equal = other.mask_lo == node.mask_lo && other.mask_hi == node.mask_hi;
+        if (kLeaves && kFilled)
+            equal = equal && surfaceMask(first) == surface;
         if (!kLeaves)
         {
             equal = equal && params.hashes.data[first - params.first_node] == hash;

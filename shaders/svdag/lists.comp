@@ -14,6 +14,11 @@ layout(local_size_x = kSvdagGroup) in;
 // Voxels below a node, and nodes, itself included.
 BeforeChild belowOf(uint number)
 {
+    if (kAboveLeaves && kFilled)
+    {
+        Node leaf = Node_ConstPtr(uint64_t(params.pool)).data[number]; // the second word is the surface mask
+        return BeforeChild(bitCount(leaf.mask_hi) + bitCount(leaf.base_hi), 1u);
+    }
     if (kAboveLeaves)
     {
         uvec2 mask = nodeMask(Node_ConstPtr(uint64_t(params.pool)), number + params.leaf_reference);
@@ -51,6 +56,32 @@ void setBefore(uint entry, BeforeChild before)
     }
 }
 
+// What an entry says of a child among the DAG's nodes: its number, or that of its word.
+uint named(uint child)
+{
+    if (kAboveLeaves && kFilled)
+        return 2u * child;
+    return leafWord(child + params.leaf_reference);
+}
+
+// The base of nodes that are full.
+uint fullBase()
+{
+    return kChildList | params.first_index;
+}
+
+// Writes the full node and its list.
+void writeFullNode()
+{
+    params.pool.data[params.full_node] = Node(~0u, fullBase(), ~0u, fullBase() + 32u);
+    for (uint i = 0u; i < kFullEntries; ++i)
+    {
+        setEntry(params.first_index + i, params.full_node);
+        if (kBefore)
+            params.before.data[i] = BeforeChild(0u, kInteriorIndex);
+    }
+}
+
 void main()
 {
     uint index = threadIndex();
@@ -59,7 +90,9 @@ void main()
     uint number = params.first_node + index;
     uint candidate = params.unique_nodes.data[number];
     Node node = params.nodes.data[candidate];
-    uint first_entry = params.first_entries.data[candidate];
+    if (kFilled && number == 0u)
+        writeFullNode();
+    uint first_entry = params.first_entries.data[candidate] + (kFilled ? kFullEntries : 0u);
     uint count = childCount(node);
     BeforeChild before = BeforeChild(0u, 0u);
     for (uint i = 0u; i < count; i += 4u)
@@ -73,7 +106,7 @@ void main()
         [[unroll]] for (uint k = 0u; k < 4u; ++k)
             if (i + k < count)
             {
-                setEntry(params.first_index + first_entry + i + k, leafWord(children[k] + params.leaf_reference));
+                setEntry(params.first_index + first_entry + i + k, named(children[k]));
                 if (kBefore)
                     setBefore(first_entry + i + k, before);
                 before.voxels += below[k].voxels;
@@ -83,5 +116,7 @@ void main()
     if (kBefore)
         params.below.data[number] = BeforeChild(before.voxels, before.nodes + 1u);
     uint base = kChildList | (params.leaf_reference & kLeafWords) | (params.first_index + first_entry);
+    if (kFilled && isFullNode(node.base_lo))
+        base = fullBase();
     params.pool.data[number] = Node(node.mask_lo, base, node.mask_hi, base + bitCount(node.mask_lo));
 }

@@ -53,10 +53,12 @@ struct ClassInsertParams // push constants of svdag/insert
     uint level;
     uint reference;       // from the number of a candidate to its reference
     uint child_reference; // from that of a child
+    uint surface;         // from the reference of a leaf of a filled octree to that of its surface mask
 };
 #define SVDAG_INSERT_CONSTANTS(CONSTANT)                                                                               \
     CONSTANT(0, uint, entries_per_word, kEntriesPerWord, 0u) /* of candidates' lists; 0: there are none */             \
-    CONSTANT(1, bool, leaves, kLeaves, false)                /* of the level: equal masks are enough */
+    CONSTANT(1, bool, leaves, kLeaves, false)                /* of the level: equal masks are enough */                \
+    CONSTANT(2, bool, filled, kFilled, false)                /* a filled octree is compressed */
 GPU_KERNEL(svdag, insert, Insert, ClassInsertParams, SVDAG_INSERT_CONSTANTS)
 
 struct ClassResolveParams // push constants of svdag/resolve
@@ -105,8 +107,10 @@ struct UniqueLeavesParams // push constants of svdag/leaves
     uint first_node; // of the DAG
     uint node_count;
     uint reference; // from the number of a candidate to its reference
+    uint surface;   // as in ClassInsertParams
 };
-GPU_KERNEL(svdag, leaves, Leaves, UniqueLeavesParams, GPU_NO_CONSTANTS)
+#define SVDAG_LEAVES_CONSTANTS(CONSTANT) CONSTANT(0, bool, filled, kFilled, false)
+GPU_KERNEL(svdag, leaves, Leaves, UniqueLeavesParams, SVDAG_LEAVES_CONSTANTS)
 
 struct UniqueListsParams // push constants of svdag/lists
 {
@@ -126,12 +130,14 @@ struct UniqueListsParams // push constants of svdag/lists
     uint long_entry_count; // entries before those of the parents of leaves
     uint child_reference;  // from the number of a child among the candidates to its reference
     uint leaf_reference;   // from that among the DAG's nodes; 0 unless the children are leaves
+    uint full_node;        // number of the full node of a filled DAG
 };
 #define SVDAG_LISTS_CONSTANTS(CONSTANT)                                                                                \
     CONSTANT(0, uint, entries_per_word, kEntriesPerWord, 0u) /* of candidates' lists; 0: there are none */             \
     CONSTANT(1, bool, before, kBefore, false)                /* there are attributes */                                \
     CONSTANT(2, bool, above_leaves, kAboveLeaves, false)     /* the children are leaves */                             \
-    CONSTANT(3, uint, per_word, kPerWord, 2u)                /* entries of the lists that are written */
+    CONSTANT(3, uint, per_word, kPerWord, 2u)                /* entries of the lists that are written */               \
+    CONSTANT(4, bool, filled, kFilled, false)                /* a filled octree is compressed */
 GPU_KERNEL(svdag, lists, Lists, UniqueListsParams, SVDAG_LISTS_CONSTANTS)
 
 struct DepthFirstParams // push constants of svdag/depth_first
@@ -139,10 +145,10 @@ struct DepthFirstParams // push constants of svdag/depth_first
     GPU_CONST_PTR(Node) nodes; // of the octree
     GPU_CONST_PTR(uint) classes;
     GPU_CONST_PTR(uint) first_entries;
-    GPU_CONST_PTR(BeforeChild) before;
-    GPU_CONST_PTR(Attribute) from; // [nodes of the octree] breadth first; words if they are packed
-    GPU_PTR(Attribute) to;         // [nodes of the octree] depth first; words if they are packed
-    GPU_PTR(uint) ranks;           // [nodes of the octree] in depth-first order; the level's are known
+    GPU_CONST_PTR(BeforeChild) before; // by entries without those of a full node
+    GPU_CONST_PTR(Attribute) from;     // [nodes of the octree] breadth first; words if they are packed
+    GPU_PTR(Attribute) to;             // [nodes of the octree] depth first; words if they are packed
+    GPU_PTR(uint) ranks;               // [nodes of the octree] in depth-first order; the level's are known
     uint first_node;
     uint node_count;
     uint child_reference; // from the number of a child to its reference

@@ -38,7 +38,7 @@ void descendToHit(RankSource source, BeforeChild_ConstPtr overlay_ranks, uvec3 c
 }
 
 // level: of the hit. in_overlay: the root may be an overlay's. index: as the traversal leaves it, the number of the
-// voxel in its leaf.
+// voxel in its leaf, or kInteriorIndex.
 uint attributeIndex(RankSource source, BeforeChild_ConstPtr overlay_ranks, bool in_overlay, uint attribute_offset,
                     uvec3 cell, uint level, uint index)
 {
@@ -51,7 +51,7 @@ uint attributeIndex(RankSource source, BeforeChild_ConstPtr overlay_ranks, bool 
         if (!in_overlay)
             descendToLeaf(source, leaf, kDetail, at);
     }
-    uint voxel = index + (in_overlay ? 0u : at.voxels);
+    uint voxel = voxelRank(index, in_overlay ? 0u : at.voxels);
     uint node = in_overlay ? at.node + attribute_offset : at.rank;
     return level == kNodeLevels ? voxel : node;
 }

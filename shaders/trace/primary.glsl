@@ -56,7 +56,7 @@ uint rankOf(Traversal hit)
         }
         at.voxels += voxelsBeforeLeaf(source, max(hit.leaf_entry, params.first_short_entry));
     }
-    return hit.index + (in_overlay ? 0u : at.voxels); // in leaves of overlays, voxels have numbers of their own
+    return voxelRank(hit.index, in_overlay ? 0u : at.voxels); // in leaves of overlays, voxels have numbers of their own
 }
 #endif
 

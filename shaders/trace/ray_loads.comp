@@ -30,7 +30,7 @@ uvec2 noteHalf(uint half_index)
 
 uint noteEntry(uint index, uint per_word)
 {
-    noteLoad(index / per_word);
+    noteLoad(index / (per_word & ~kFilledDag));
     return loadEntry(index, per_word);
 }
 

@@ -62,6 +62,8 @@ void main()
     ivec3 corner = brickCorner(entry);
     TriangleSetup setup = loadSetup(item.triangle);
     Surface surface = surfaceOf(item.triangle, setup);
+    // With kCentres, voxels of the item, whole leaves and the brick may be gone. A wide grid's bricks are below its root.
+    bool has_brick = kWideKeys ? nodeOf(entry) != 0u : (entry.mask_lo | entry.mask_hi) != 0u;
     uint leaf = kBrickLeaves; // none
     Node node;
     MixedVoxels mixed;
@@ -72,6 +74,8 @@ void main()
         uvec3 weights = weightsAt(setup, corner + ivec3(voxel));
         uvec4 color = fragmentColor(surface, weights);
         bool exists = kMaterialClass != kClassAlpha || passesAlpha(surface, color.a, uvec3(corner) + voxel);
+        if (kCentres && exists && number >> 6 != leaf)
+            exists = has_brick && hasChild(brick, number >> 6);
         if (exists && number >> 6 != leaf) // what is cut out may have no leaf
         {
             leaf = number >> 6;
@@ -81,6 +85,8 @@ void main()
                 mixed = loadMixedLeaf(index);
         }
         uint cell = number & 63u;
+        if (kCentres && exists)
+            exists = hasChild(node, cell);
         uint place = childIndex(node, cell);
         uvec3 emission = uvec3(0u);
         if (kEmits)

@@ -67,10 +67,11 @@ struct SurfaceSetup
 };
 GPU_BUFFER(SurfaceSetup, 16);
 
-/// The words of a brick's crossings, with that many planes of them each way: of kFillAxes axes where it is robust.
-GPU_FUNCTION uint fillWords(uint planes, bool robust)
+/// The words of a brick's crossings, with that many planes of them each way: of kFillAxes axes where it is robust. With
+/// centres, as many follow of the crossings above voxels' centres.
+GPU_FUNCTION uint fillWords(uint planes, bool robust, bool centres)
 {
-    uint axis_words = 2u * planes * kLeafMaskWords;
+    uint axis_words = (centres ? 4u : 2u) * planes * kLeafMaskWords;
     return robust && planes != 0u ? kFillAxes * axis_words + kFacesWords : axis_words;
 }
 
@@ -246,7 +247,8 @@ struct CoverParams // push constants of voxelize/cover: a thread an item
     CONSTANT(4, Coverage, coverage, kCoverage, kCoverageConservative)                                                  \
     CONSTANT(5, bool, emits, kEmits, false)                                                                            \
     CONSTANT(6, uint, fill_planes, kFillPlanes, 0u) /* 0: nothing is filled */                                         \
-    CONSTANT(7, bool, robust, kRobust, false)       /* along kFillAxes axes */
+    CONSTANT(7, bool, robust, kRobust, false)       /* along kFillAxes axes */                                         \
+    CONSTANT(8, bool, centres, kCentres, false)     /* those above centres are counted, too; not with kRobust */
 GPU_KERNEL(voxelize, cover, Cover, CoverParams, VOXELIZE_COVER_CONSTANTS)
 
 struct FillColumnsParams // push constants of voxelize/fill_columns: a thread a brick
@@ -269,6 +271,7 @@ struct FillParams // push constants of voxelize/fill: kFillLanes threads a brick
     GPU_PTR(uint)
     crossings;                     // as in CoverParams; the first plane of a range becomes the masks of what is inside;
                                    // of kFillRobust, the first planes of each axis and way what rays that way say
+    GPU_PTR(uint) masks;           // as in CoverParams; with kCentres they lose what is not inside
     GPU_PTR(BinCounters) counters; // [1]
     uint window;
     uint brick_mask;
@@ -276,7 +279,9 @@ struct FillParams // push constants of voxelize/fill: kFillLanes threads a brick
 #define VOXELIZE_FILL_CONSTANTS(CONSTANT)                                                                              \
     CONSTANT(0, bool, wide_keys, kWideKeys, false)                                                                     \
     CONSTANT(1, uint, fill_planes, kFillPlanes, 1u)                                                                    \
-    CONSTANT(2, Fill, fill, kFill, kFillSolid)
+    CONSTANT(2, Fill, fill, kFill, kFillSolid)                                                                         \
+    CONSTANT(3, bool, centres, kCentres, false) /* voxels of the surface are inside by their centres, too */           \
+    CONSTANT(4, bool, mixed, kMixed, false)
 GPU_KERNEL(voxelize, fill, FillVoxels, FillParams, VOXELIZE_FILL_CONSTANTS)
 
 struct FillVoteParams // push constants of voxelize/fill_vote: a workgroup of kBrickLeaves threads a brick
@@ -401,7 +406,8 @@ struct AttributesParams // push constants of voxelize/attributes: a thread an it
     CONSTANT(2, MaterialClass, material_class, kMaterialClass, kClassPlain)                                            \
     CONSTANT(3, Coverage, coverage, kCoverage, kCoverageConservative)                                                  \
     CONSTANT(4, RasterMode, mode, kMode, kModeAttributes) /* or kModeEmission */                                       \
-    CONSTANT(5, bool, emits, kEmits, false)
+    CONSTANT(5, bool, emits, kEmits, false)                                                                            \
+    CONSTANT(6, bool, centres, kCentres, false) /* not all voxels of the surface are there */
 GPU_KERNEL(voxelize, attributes, Attributes, AttributesParams, VOXELIZE_ATTRIBUTES_CONSTANTS)
 GPU_KERNEL(voxelize, attributes_int64, AttributesInt64, AttributesParams, VOXELIZE_ATTRIBUTES_CONSTANTS)
 

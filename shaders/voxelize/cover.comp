@@ -114,17 +114,20 @@ void addCrossings(BrickItem item, BrickEntry entry, Voxels voxels)
 {
     ivec3 brick = brickCorner(entry);
     TriangleSetup setup = loadSetup(item.triangle);
-    uint first_word = entry.mask_lo * fillWords(kFillPlanes, kRobust);
+    uint first_word = entry.mask_lo * fillWords(kFillPlanes, kRobust, kCentres);
     while (hasVoxels(voxels))
     {
         uvec3 voxel = takeVoxel(voxels);
         uvec3 place = voxel;
         [[unroll]] for (uint line = 0u; line < (kRobust ? kFillAxes : 1u); ++line)
         {
-            int sign = crossing(setup, brick + ivec3(voxel), line);
+            bool above;
+            int sign = crossing(setup, brick + ivec3(voxel), line, above);
             uint planes = (2u * line + (sign < 0 ? 1u : 0u)) * kFillPlanes;
             if (sign != 0)
                 addCrossing(first_word + planes * kLeafMaskWords, numberOf(place));
+            if (kCentres && sign != 0 && above)
+                addCrossing(first_word + (planes + 2u * kFillPlanes) * kLeafMaskWords, numberOf(place));
             place = place.yzx;
         }
     }

@@ -43,10 +43,27 @@ const int kAlongW = 0;
 const int kAlongU = 1;
 const int kAlongV = 2;
 
-// 1 where the triangle crosses the line within the voxel and faces up, -1 where it faces down, 0 where it does not
-// cross it. line: 0 along y, 1 along z, 2 along x.
-int crossing(TriangleSetup setup, ivec3 voxel, uint line)
+// Whether the triangle crosses a line above the voxel's centre, which is moved as the line is, and then up by e^3: so
+// it lies on no triangle. plane, exact: what halfVoxels() gives, and its product modulo 2^64. rises: along u and v.
+bool isAbove(int64_t plane, int64_t exact, i64vec2 rises, ivec2 unmirrored, int along)
 {
+    int side = plane > 0l || exact != 0l ? 1 : -1; // of the plane over the centre, along w; only where plane is not below 0
+    if (plane == 0l && exact == 0l)
+    {
+        bool by_v = along == kAlongW && rises.y != 0l;
+        bool by_u = along != kAlongU && rises.x != 0l;
+        side = by_v ? unmirrored.y : by_u ? unmirrored.x : -1;
+    }
+    side = plane < 0l ? -1 : side;
+    int flip = along == kAlongU ? unmirrored.x : unmirrored.y; // along u and v, the plane is on the other side
+    return along == kAlongW ? side > 0 : side * flip < 0;
+}
+
+// 1 where the triangle crosses the line within the voxel and faces up, -1 where it faces down, 0 where it does not
+// cross it. line: 0 along y, 1 along z, 2 along x. above: whether that is above the centre, of lines along y.
+int crossing(TriangleSetup setup, ivec3 voxel, uint line, out bool above)
+{
+    above = false;
     uint axis = setup.flags & kSetupAxis;
     int turn = int(line) + 1 - int(axis); // u, v and w follow each other as x, y and z do
     int along = turn < 0 ? turn + 3 : turn > 2 ? turn - 3 : turn;
@@ -83,6 +100,8 @@ int crossing(TriangleSetup setup, ivec3 voxel, uint line)
     i64vec3 edge = product(edges_a, to_b) - product(edges_b, to_a);
     if (!all(areInside(edge, edges_a, edges_b, move_a, move_b, along != kAlongW)))
         return 0;
+    int64_t exact = rise_u * int64_t(to_u.x) + rise_v * int64_t(to_v.x) - n_w * int64_t(to_w.x);
+    above = isAbove(plane, exact, i64vec2(rise_u, rise_v), unmirrored, along);
     bool w_is_positive = hasFlag(setup, kSetupExchanged) == (mirror.x != mirror.y); // of the normal
     int flip = along == kAlongU ? mirror.x : mirror.y;
     bool is_up = along == kAlongW ? w_is_positive : w_is_positive == (flip != 0);

@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: MIT
 // Finds the voxels that are inside: kFillLanes threads take a column of bricks from the top down, each 32 of its lines,
 // and add up the triangles that cross them, as binary digits of 32 lines at once. Bricks that are not listed change
-// nothing. A voxel with a crossing counts as its upper end: it is one of the surface in any case.
+// nothing. A voxel with a crossing counts as its upper end: it is one of the surface in any case. With kCentres it
+// counts as its centre, and voxels of the surface whose centres are outside are taken from the masks.
 //
 // With kFillRobust, columns stand along all axes, and a line is walked twice: the sum of all of its crossings tells in
 // the second walk what a ray from a voxel down has crossed, which of closed surfaces is the same as from there up.
@@ -20,9 +21,12 @@ layout(local_size_x = kBricksGroup) in;
 
 #ifdef BOUND
 STORAGE(2, uvec4, crossings);
+STORAGE(3, uvec4, masks);
 #define CROSSINGS(I) storage_crossings.data[I]
+#define MASKS(I) storage_masks.data[I]
 #else
 #define CROSSINGS(I) uvec4_Ptr(uint64_t(params.crossings)).data[I]
+#define MASKS(I) uvec4_Ptr(uint64_t(params.masks)).data[I]
 #endif
 
 const uint kWindingBits = kFillPlanes + 7u; // 32 at most
@@ -36,7 +40,7 @@ const bool kRobust = kFill == kFillRobust;
 
 uint rangeQuads() // of a range's crossings
 {
-    return fillWords(kFillPlanes, kRobust) / 4u;
+    return fillWords(kFillPlanes, kRobust, kCentres) / 4u;
 }
 
 // Words of a pair of leaves that stand side by side along x: of either z half, of either leaf. Of a layer they have
@@ -100,6 +104,31 @@ void cross(uvec4 up[kFillPlanes], uvec4 down[kFillPlanes], uint layer)
     g_exceeded |= g_winding[kWindingBits - 1u] ^ g_winding[kWindingBits - 2u];
 }
 
+// Lines whose centres are inside, of which the voxel's upper ends are as g_winding says. up, down: as of cross(), of
+// crossings above the centres.
+uint insideCentres(uvec4 up[kFillPlanes], uvec4 down[kFillPlanes], uint layer)
+{
+    uint carry = 0u;
+    uint borrow = 0u;
+    uint any_digit = 0u;
+    [[unroll]] for (uint k = 0u; k < (kFill == kFillParity ? 1u : kWindingBits); ++k)
+    {
+        uint added = 0u;
+        uint taken = 0u;
+        if (k < kFillPlanes)
+        {
+            added = linesOf(up[min(k, kFillPlanes - 1u)], layer);
+            taken = linesOf(down[min(k, kFillPlanes - 1u)], layer);
+        }
+        uint digit = g_winding[k];
+        uint sum = digit ^ added ^ carry;
+        carry = (digit & added) | (carry & (digit ^ added));
+        any_digit |= sum ^ taken ^ borrow;
+        borrow = (~sum & taken) | (borrow & ~(sum ^ taken));
+    }
+    return any_digit;
+}
+
 // The pair of leaves of a lane in a row of leaves: lanes take x1, z0 and z1 of the leaves' numbers.
 uint pairOf(uint lane, uint row)
 {
@@ -107,8 +136,8 @@ uint pairOf(uint lane, uint row)
     return leaf >> 1;
 }
 
-// first: of the range's planes. writes: the planes become masks of what is inside.
-void fillBrick(uint first, uint lane, bool writes)
+// number: of the range. first: of its planes. writes: the planes become masks of what is inside.
+void fillBrick(uint number, uint first, uint lane, bool writes)
 {
     for (uint row = 4u; row-- > 0u;)
     {
@@ -120,17 +149,35 @@ void fillBrick(uint first, uint lane, bool writes)
             up[k] = CROSSINGS(pair + k * kPlanePairs);
             down[k] = CROSSINGS(pair + (kFillPlanes + k) * kPlanePairs);
         }
+        uvec4 up_above[kFillPlanes];
+        uvec4 down_above[kFillPlanes];
+        if (kCentres)
+            [[unroll]] for (uint k = 0u; k < kFillPlanes; ++k)
+            {
+                up_above[k] = CROSSINGS(pair + (2u * kFillPlanes + k) * kPlanePairs);
+                down_above[k] = CROSSINGS(pair + (3u * kFillPlanes + k) * kPlanePairs);
+            }
         uvec4 inside = uvec4(0u);
         uvec4 inside_below = uvec4(0u);
         [[unroll]] for (uint i = 0u; i < 4u; ++i)
         {
-            inside |= wordsOf(insideLines(), 3u - i);
+            if (kCentres)
+                inside |= wordsOf(insideCentres(up_above, down_above, 3u - i), 3u - i);
+            else
+                inside |= wordsOf(insideLines(), 3u - i);
             if (kRobust)
                 inside_below |= wordsOf(insideBelow(), 3u - i);
             cross(up, down, 3u - i);
         }
         if (writes)
             CROSSINGS(pair) = inside;
+        if (kCentres)
+        {
+            uint mask_pair = number * ((kMixed ? 2u : 1u) * kPlanePairs) + pairOf(lane, row);
+            MASKS(mask_pair) &= inside;
+            if (kMixed)
+                MASKS(mask_pair + kPlanePairs) &= inside;
+        }
         if (kRobust && writes)
             CROSSINGS(pair + kFillPlanes * kPlanePairs) = inside_below;
     }
@@ -170,7 +217,7 @@ void main()
     bool writes = !kRobust; // in the second walk
     while (y != kNoBrick)
     {
-        fillBrick(number * rangeQuads() + line * (2u * kFillPlanes * kPlanePairs), lane, writes);
+        fillBrick(number, number * rangeQuads() + line * (2u * kFillPlanes * kPlanePairs), lane, writes);
         if (writes)
             leaveBrick(number, column, y);
         y = brickTo(column, y - 1);

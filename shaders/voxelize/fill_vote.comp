@@ -37,7 +37,7 @@ shared uint s_has_surface;
 
 uint rangePairs() // of a range's crossings
 {
-    return fillWords(kFillPlanes, true) / 2u;
+    return fillWords(kFillPlanes, true, false) / 2u;
 }
 
 struct Count // of 64 voxels, what six rays and twice six neighbours say

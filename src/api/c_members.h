@@ -84,7 +84,7 @@ ZVO_C_STRUCT(ZvoModelStats, Model, ZVO_MODEL_STATS_INIT, (), (it.triangle_count,
 ZVO_C_STRUCT(ZvoTreeInfo, TreeInfo, ZVO_TREE_INFO_INIT,
              (it.structure, it.format, it.grid, it.emission_scale, it.voxel_count, it.node_count, it.bytes), ());
 ZVO_C_STRUCT(ZvoTreeBuildInfo, TreeBuildInfo, ZVO_TREE_BUILD_INFO_INIT,
-             (it.grid, it.coverage, it.format, it.keep_sums, it.fill), ());
+             (it.grid, it.coverage, it.format, it.keep_sums, it.fill, it.shell), ());
 ZVO_C_STRUCT(ZvoTreeAlgebraInfo, TreeAlgebraInfo, ZVO_TREE_ALGEBRA_INFO_INIT,
              (it.operation, it.corners, it.voxels, it.largest, it.least_voxels), ());
 ZVO_C_STRUCT(ZvoDroppedTriangles, DroppedTriangles, ZVO_DROPPED_TRIANGLES_INIT, (),

@@ -136,6 +136,7 @@ const TreeBuildInfo& checked(const TreeBuildInfo& info)
     checkedEnum(info.coverage, Coverage::Thin, "TreeBuildInfo::coverage");
     checkedEnum(info.format, AttributeFormat::Blocks, "TreeBuildInfo::format");
     checkedEnum(info.fill, Fill::Robust, "TreeBuildInfo::fill");
+    checkedEnum(info.shell, Shell::None, "TreeBuildInfo::shell");
     if (info.keep_sums && info.format != AttributeFormat::Bytes8)
     {
         throw Error(ErrorCode::Usage, "sums are kept only beside attributes of 8 bytes");

@@ -29,6 +29,7 @@ BuildOptions optionsOf(const TreeBuildInfo& info)
     options.attributes = info.format != AttributeFormat::None;
     options.keep_sums = info.keep_sums;
     options.fill = info.fill;
+    options.shell = info.shell;
     return options;
 }
 

@@ -57,6 +57,8 @@ public:
                                   packing.entry_count, packing.per_word);
         m_first_entry = packing.firstEntry();
         m_first_short_entry = m_first_entry + tree.lists.long_entry_count;
+        m_full_base = gpu::kChildList | static_cast<std::uint32_t>(m_first_entry);
+        m_to_surface = tree.filled ? 1 : 0;
         m_first_overlay_node = static_cast<std::uint32_t>(m_nodes.size());
         if (tree.hasOverlays())
         {
@@ -77,7 +79,8 @@ public:
     // Whether a node is full, or a leaf has the voxels of another one.
     [[nodiscard]] bool isFull(const gpu::Node& node) const
     {
-        return m_is_filled && (node.base_lo & gpu::kFullNodes) != 0;
+        const bool is_dag = !m_entries.empty();
+        return m_is_filled && (is_dag ? node.base_lo == m_full_base : (node.base_lo & gpu::kFullNodes) != 0);
     }
 
     // A leaf with those of its voxels that have attributes.
@@ -182,6 +185,7 @@ private:
     std::vector<gpu::uint> m_voxels_before_leaf;
     std::vector<gpu::BeforeChild> m_ranks;
     std::uint64_t m_first_entry = 0;
+    std::uint32_t m_full_base = 0; // of full nodes of a DAG
     std::uint64_t m_first_short_entry = 0;
     std::uint32_t m_first_overlay_node = 0;
     std::uint32_t m_attribute_offset = 0;

@@ -52,7 +52,7 @@ LiveScene::LiveScene(vk::HeadlessDevice& device, const TreeData& tree, const Liv
     m_info.fixed.node_count = tree.nodes.size();
     m_info.fixed.geometry_bytes = tree.geometryBytes();
     m_info.fixed.attribute_bytes = tree.attributeBytes();
-    if (isPacked(m_fixed.attributeFormat()))
+    if (isPacked(m_fixed.attributeFormat()) || (m_fixed.filled && m_fixed.isDag()))
     {
         return;
     }
@@ -79,11 +79,19 @@ LiveScene::LiveScene(vk::HeadlessDevice& device, AnimatedScene animated, const G
     const bool keep_sums = options.attributes && dynamic.merge == MergeRule::Average;
     Scene fixed = std::exchange(m_animated.fixed, {});
     m_animated.fixed.cameras = fixed.cameras;
-    StaticPart part = makeStaticPart(
-        device, std::move(fixed), grid,
-        {.coverage = options.coverage, .attributes = options.attributes, .keep_sums = keep_sums, .fill = options.fill},
-        options.structure, listener, dynamic.emission_scale);
+    StaticPart part = makeStaticPart(device, std::move(fixed), grid,
+                                     {.coverage = options.coverage,
+                                      .attributes = options.attributes,
+                                      .keep_sums = keep_sums,
+                                      .fill = options.fill,
+                                      .shell = options.shell},
+                                     options.structure, listener, dynamic.emission_scale);
     m_info.fixed = std::move(part.info);
+    if (part.tree.filled && part.tree.isDag() && m_animated.objects.empty())
+    {
+        m_fixed = std::move(part.tree);
+        return;
+    }
     const float emission_scale = dynamic.emission_scale;
     dynamic.emission_scale = emission_scale == 0.0F && options.brushes_emit ? 1.0F : emission_scale;
     m_dynamic = std::make_unique<DynamicOctree>(device, std::move(part.tree), dynamic);

@@ -33,7 +33,8 @@ struct LiveOptions
     bool brushes_emit = false; // of a scene in which nothing emits: brushes may give voxels emission
     /// Called with the reason when a dab is left out.
     std::function<void(std::string_view)> warn = [](std::string_view) {};
-    Fill fill = Fill::None; // of the static part, which is an octree then
+    Fill fill = Fill::None; // of the static part
+    Shell shell = Shell::Surface;
 };
 
 struct EndStroke

@@ -68,10 +68,12 @@ TreeData downloadTree(vk::HeadlessDevice& device, const DeviceTree& tree)
     data.grid = tree.grid;
     data.voxel_count = tree.voxel_count;
     data.octree_node_count = tree.octreeNodeCount();
-    data.long_entry_count = tree.lists.long_entry_count;
+    data.long_entry_count = tree.lists.long_entry_count - tree.fullEntries();
     data.levels = tree.levels;
     setNodes(device.download(tree.nodes), tree, data);
     data.before = device.download(tree.lists.before);
+    data.before.erase(data.before.begin(),
+                      data.before.begin() + std::min<std::ptrdiff_t>(tree.fullEntries(), std::ssize(data.before)));
     data.voxels_before_leaf = device.download(tree.lists.voxels_before_leaf);
     data.voxel_attributes = device.download(tree.voxel_attributes);
     data.node_attributes = device.download(tree.node_attributes);

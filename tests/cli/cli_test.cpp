@@ -109,7 +109,15 @@ TEST_F(CliRun, FillsWhatIsClosedInAllOfItsFiles)
     run("render shell.zvo -o b.png --size 64x48");
     EXPECT_EQ(file("a.png"), file("b.png"));
     expectError("build cube.glb --resolution 16 --fill robust --distance 2 -o a.nvdb", 2, {"solid or parity"});
-    expectError("build cube.glb --resolution 16 --fill solid --structure svdag -o a.zvo", 2, {"--structure svo"});
+    run("build cube.glb --resolution 16 --fill solid --structure svo -o octree.zvo");
+    run("convert octree.zvo -o octree.ply");
+    EXPECT_EQ(file("octree.ply"), file("full.ply"));
+    run("validate full.zvo");
+    run("voxelize cube.glb --resolution 16 --margin 1 --fill parity --shell none -o core.morton");
+    EXPECT_EQ(file("core.morton").size(), std::size_t{14} * 14 * 14 * sizeof(std::uint64_t)); // as long as the cube
+    expectError("build cube.glb --resolution 16 --shell none -o a.zvo", 2, {"shell"});
+    expectError("build cube.glb --resolution 16 --fill robust --shell none -o a.zvo", 2, {"shell"});
+    expectError("build cube.glb --resolution 16 --distance 2 --shell none -o a.nvdb", 2, {"--shell"});
     expectError("voxelize cube.glb --resolution 4 --fill solid -o a.morton", 2, {"resolution of 8"});
     run("build cube.glb --resolution 16 --distance 2 -o near.nvdb --json near.json");
     EXPECT_GT(json::parse(file("near.json"))["leaves"], 8);
@@ -135,7 +143,10 @@ TEST_F(CliRun, EditsTreesByScripts)
     run("build cube.glb --resolution 16 -o dag.zvo");
     run("edit dag.zvo cut.json -o dag_cut.zvo");
     EXPECT_EQ(printedBy("inspect dag_cut.zvo --json")["structure"], "svdag");
-    expectError("edit full.zvo cut.json -o a.zvo --structure svdag", 2, {"svo"});
+    EXPECT_EQ(report["structure"], "svdag"); // of a filled DAG
+    run("edit full.zvo cut.json -o octree.zvo --structure svo");
+    run("algebra octree.zvo -o again.zvo");
+    EXPECT_EQ(file("again.zvo"), file("half.zvo"));
     expectError("edit full.zvo missing.json -o a.zvo", 3, {"missing.json"});
     m_dir.write("bad.json", R"({"schema": "zvo.edits/1", "edits": [{"action": "carve", "mesh": {"file": "no.obj"}}]})");
     expectError("edit full.zvo bad.json -o a.zvo", 3, {"no.obj"});
@@ -165,7 +176,9 @@ TEST_F(CliRun, CalculatesWithTreesInTheOrderOfTheCommandLine)
     expectError("algebra shell.zvo --unite fine.zvo -o b.zvo", 3, {"fine.zvo", "--resolution"});
     expectError("algebra shell.zvo --dilate 0 -o b.zvo", 2, {"--dilate"});
     expectError("algebra shell.zvo --dilate 1", 2, {"--output or --components"});
-    expectError("algebra full.zvo -o b.zvo --structure svdag", 2, {"filled"});
+    run("algebra full.zvo -o octree.zvo --structure svo");
+    run("algebra octree.zvo --intersect full.zvo -o again.zvo");
+    EXPECT_EQ(file("again.zvo"), file("full.zvo")); // a filled DAG, of a DAG or an octree
 }
 
 TEST_F(CliRun, PlyFileHoldsCentersNormalsAndColors)

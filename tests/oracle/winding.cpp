@@ -49,6 +49,31 @@ std::array<std::int64_t, 2> centersBetween(Int128 low, Int128 high, std::uint32_
             static_cast<std::int64_t>(std::min(last, Int128{resolution} - 1))};
 }
 
+/// The sign of a + b e + c e^2 + d e^3 for a small e.
+int signOf(Int128 a, Int128 b, Int128 c, Int128 d)
+{
+    for (const Int128 number : {a, b, c, d})
+    {
+        if (number != 0)
+            return number > 0 ? 1 : -1;
+    }
+    return 0;
+}
+
+/// Whether the line along y through (x + e, z + e^2) meets the triangle, whose normal's y has this sign.
+bool meetsLine(const Triangle& triangle, int facing, Int128 x, Int128 z)
+{
+    for (std::size_t i = 0; i < 3; ++i)
+    {
+        const Vec& from = triangle[i];
+        const Vec edge = triangle[(i + 1) % 3] - from;
+        // Seen from above, z goes right and x goes up: counterclockwise triangles face up.
+        if (signOf(edge[2] * (x - from[0]) - edge[0] * (z - from[2]), edge[2], -edge[0], 0) != facing)
+            return false;
+    }
+    return true;
+}
+
 } // namespace
 
 bool isClosed(std::span<const Triangle> triangles)
@@ -105,6 +130,39 @@ std::vector<std::int16_t> windingNumbers(std::span<const Triangle> triangles, st
     }
     for (std::size_t i = layer; i < winding.size(); ++i)
         winding[i] = static_cast<std::int16_t>(winding[i] + winding[i - layer]);
+    return winding;
+}
+
+std::vector<std::int16_t> windingsBesideCentres(std::span<const Triangle> triangles, std::uint32_t resolution)
+{
+    std::vector<std::int16_t> winding(std::size_t{resolution} * resolution * resolution);
+    const auto centre = [](std::int64_t cell) { return Int128{cell} * kLatticeVoxel + 128; };
+    for (const Triangle& triangle : triangles)
+    {
+        const Vec normal = normalOf(triangle);
+        const int facing = signOf(normal[1], 0, 0, 0);
+        const auto [x_low, x_high] = std::minmax({triangle[0][0], triangle[1][0], triangle[2][0]});
+        const auto [z_low, z_high] = std::minmax({triangle[0][2], triangle[1][2], triangle[2][2]});
+        const auto columns = centersBetween(x_low, x_high, resolution);
+        const auto rows = centersBetween(z_low, z_high, resolution);
+        for (std::int64_t z = rows[0]; facing != 0 && z <= rows[1]; ++z)
+        {
+            for (std::int64_t x = columns[0]; x <= columns[1]; ++x)
+            {
+                if (!meetsLine(triangle, facing, centre(x), centre(z)))
+                    continue;
+                for (std::int64_t y = 0; y < resolution; ++y)
+                {
+                    const Vec to = Vec{centre(x), centre(y), centre(z)} - triangle[0];
+                    const Int128 over = normal[0] * to[0] + normal[1] * to[1] + normal[2] * to[2];
+                    if (signOf(over, normal[0], normal[2], normal[1]) == facing)
+                        break; // this point, and those above it, are on the upper side
+                    const std::int64_t number = x + resolution * (y + resolution * z);
+                    winding[static_cast<std::size_t>(number)] += static_cast<std::int16_t>(facing);
+                }
+            }
+        }
+    }
     return winding;
 }
 

@@ -20,4 +20,9 @@ bool isClosed(std::span<const Triangle> triangles);
 /// infinitesimal distance, the same for all triangles. For centres on the surface the number has no meaning.
 std::vector<std::int16_t> windingNumbers(std::span<const Triangle> triangles, std::uint32_t resolution);
 
+/// The same around points next to the centres: e along x, e^2 along z and e^3 along y from them, for an e smaller than
+/// any number, so that no point is on a triangle. They count the crossings above each point along y, a triangle that
+/// faces up as 1; of surfaces that are not closed, too.
+std::vector<std::int16_t> windingsBesideCentres(std::span<const Triangle> triangles, std::uint32_t resolution);
+
 } // namespace zvo::oracle

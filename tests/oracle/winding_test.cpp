@@ -67,6 +67,39 @@ TEST(OracleWinding, IsOneInsideAnOctahedronAnywhereAlsoPartlyOutsideOfTheGrid)
     EXPECT_GT(inside_count, 2000U);
 }
 
+// Beside a centre that is not on the surface is what is at the centre.
+TEST(OracleWinding, BesideCentresIsThatOfCentresAndDecidesThoseOnTheSurface)
+{
+    test::Random random(2);
+    for (int i = 0; i < 100; ++i)
+    {
+        const Vec center = test::pickPoint(random, 0, 10 * 256);
+        const Int128 radius = test::pick(random, 300, 2000);
+        const std::vector<Triangle> triangles = octahedron(center, radius);
+        const std::vector<std::int16_t> winding = windingsBesideCentres(triangles, 10);
+        std::size_t number = 0;
+        for (const glm::uvec3& voxel : test::allVoxels(10))
+        {
+            const Vec offset = voxelBox(voxel, voxel).low - Vec{-128, -128, -128} - center;
+            const Int128 distance = absolute(offset[0]) + absolute(offset[1]) + absolute(offset[2]);
+            if (distance != radius)
+            {
+                EXPECT_EQ(winding[number], distance < radius ? 1 : 0);
+            }
+            ++number;
+        }
+    }
+    // The corners of this octahedron are centres, which move along x by most.
+    const std::vector<std::int16_t> winding =
+        windingsBesideCentres(octahedron({4 * 256 + 128, 4 * 256 + 128, 4 * 256 + 128}, 2 * 256), 10);
+    const auto at = [&](std::size_t x, std::size_t y, std::size_t z) { return winding[x + 10 * (y + 10 * z)]; };
+    EXPECT_EQ(at(2, 4, 4), 1);
+    EXPECT_EQ(at(6, 4, 4), 0);
+    EXPECT_EQ(at(3, 3, 4), 1); // on an edge: x and y are both below
+    EXPECT_EQ(at(5, 3, 4), 0); // x moves out farther than y moves in
+    EXPECT_EQ(at(4, 2, 4), 0); // the corner below: x moves out of it
+}
+
 TEST(OracleWinding, AddsUpOverSurfaces)
 {
     const Vec center{2000, 2000, 2000};

@@ -40,6 +40,12 @@ struct Options
 
 constexpr std::array<Fill, 3> kFills = {Fill::Solid, Fill::Parity, Fill::Robust};
 
+constexpr std::array<std::pair<Fill, Shell>, 5> kForms = {{{Fill::Solid, Shell::Surface},
+                                                           {Fill::Parity, Shell::Surface},
+                                                           {Fill::Robust, Shell::Surface},
+                                                           {Fill::Solid, Shell::None},
+                                                           {Fill::Parity, Shell::None}}};
+
 constexpr std::array<double, 4> kLost = {0.01, 0.05, 0.10, 0.30};            // shares of the triangles
 constexpr std::array<double, 4> kWrongMost = {0.0001, 0.0002, 0.0005, 0.04}; // of the voxels inside, with Fill::Robust
 
@@ -55,11 +61,12 @@ bool compare(vk::HeadlessDevice& device, const std::string& name, const Scene& s
     bool is_well = true;
     for (const Coverage coverage : {Coverage::Thin, Coverage::Conservative})
     {
-        for (const Fill fill : kFills)
+        for (const auto& [fill, shell] : kForms)
         {
-            const test::FillComparison found = test::compareFill(device, scene, grid, coverage, fill);
-            const std::string what = fmt::format("{} {}^3 {} {}", name, grid.resolution(),
-                                                 coverage == Coverage::Thin ? "thin" : "conservative", nameOf(fill));
+            const test::FillComparison found = test::compareFill(device, scene, grid, coverage, fill, shell);
+            const std::string what = fmt::format("{} {}^3 {} {}{}", name, grid.resolution(),
+                                                 coverage == Coverage::Thin ? "thin" : "conservative", nameOf(fill),
+                                                 shell == Shell::None ? " without a shell" : "");
             if (!found.is_closed)
             {
                 fmt::print("{}: not closed, left out\n", what);
@@ -89,8 +96,9 @@ std::uint64_t compareSoups(vk::HeadlessDevice& device, const Options& options)
         {
             soup = test::withHoles(std::move(soup), random, 0.2);
         }
+        const Shell shell = fill != Fill::Robust && i % 5 < 3 ? Shell::None : Shell::Surface;
         const test::FillComparison found =
-            test::compareFill(device, soup, grid, i % 3 == 0 ? Coverage::Conservative : Coverage::Thin, fill);
+            test::compareFill(device, soup, grid, i % 3 == 0 ? Coverage::Conservative : Coverage::Thin, fill, shell);
         interior += found.interior;
         if ((!found.is_closed && !has_holes) || found.wrong != 0 || !found.same_surface)
         {

@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <utility>
 #include <vector>
 
 namespace zvo::test
@@ -48,7 +49,7 @@ std::size_t numberOfCode(std::uint64_t code, std::size_t resolution)
 } // namespace
 
 FillComparison compareFill(vk::HeadlessDevice& device, const Scene& scene, const Grid& grid, Coverage coverage,
-                           Fill fill)
+                           Fill fill, Shell shell)
 {
     FillComparison found;
     const std::vector<oracle::Triangle> triangles = latticeTriangles(scene, grid);
@@ -59,7 +60,8 @@ FillComparison compareFill(vk::HeadlessDevice& device, const Scene& scene, const
     }
     const GpuScene uploaded = uploadScene(device, scene, true);
     const BuildResult surface = buildOctree(device, uploaded, grid, {.coverage = coverage});
-    const BuildResult filled = buildOctree(device, uploaded, grid, {.coverage = coverage, .fill = fill});
+    const BuildResult filled =
+        buildOctree(device, uploaded, grid, {.coverage = coverage, .fill = fill, .shell = shell});
     const TreeData tree = downloadTree(device, filled.octree);
     const std::vector<std::uint64_t> surface_codes = voxelCodes(device, surface.octree);
     std::vector<std::uint64_t> on_surface;
@@ -69,7 +71,9 @@ FillComparison compareFill(vk::HeadlessDevice& device, const Scene& scene, const
     std::vector<bool> inside(occupied.size());
     if (found.is_closed)
     {
-        const std::vector<std::int16_t> winding = oracle::windingNumbers(triangles, grid.resolution());
+        const std::vector<std::int16_t> winding = shell == Shell::None
+                                                      ? oracle::windingsBesideCentres(triangles, grid.resolution())
+                                                      : oracle::windingNumbers(triangles, grid.resolution());
         std::transform(winding.begin(), winding.end(), inside.begin(),
                        [fill](std::int16_t number) { return fill == Fill::Parity ? number % 2 != 0 : number != 0; });
     }
@@ -98,6 +102,7 @@ FillComparison compareFill(vk::HeadlessDevice& device, const Scene& scene, const
                     if (is_surface)
                     {
                         on_surface.push_back(code);
+                        found.wrong += shell == Shell::None && !inside[numberOf(code)] ? 1 : 0;
                         return;
                     }
                     ++found.interior;
@@ -108,8 +113,23 @@ FillComparison compareFill(vk::HeadlessDevice& device, const Scene& scene, const
         found.wrong += inside[number] && !occupied[number] ? 1 : 0;
     }
     found.wrong += filled.octree.interior_count == found.interior ? 0 : 1;
-    found.same_surface = on_surface == surface_codes &&
-                         sameBytes(tree.voxel_attributes, downloadTree(device, surface.octree).voxel_attributes);
+    std::vector<gpu::Attribute> attributes = downloadTree(device, surface.octree).voxel_attributes;
+    std::vector<std::uint64_t> expected_codes = surface_codes;
+    if (shell == Shell::None)
+    {
+        std::vector<gpu::Attribute> kept;
+        expected_codes.clear();
+        for (std::size_t i = 0; i < surface_codes.size(); ++i)
+        {
+            if (inside[numberOf(surface_codes[i])])
+            {
+                expected_codes.push_back(surface_codes[i]);
+                kept.push_back(attributes[i]);
+            }
+        }
+        attributes = std::move(kept);
+    }
+    found.same_surface = on_surface == expected_codes && sameBytes(tree.voxel_attributes, attributes);
     return found;
 }
 

@@ -25,13 +25,14 @@ struct FillComparison
     std::uint64_t interior = 0; // voxels inside and not on the surface
     std::uint64_t undecided = 0;
     std::uint64_t wrong = 0;   // that are not where they should be, or missing; or the tree's count of them is wrong
-    bool same_surface = false; // voxels of the surface, and their attributes, are those of the tree without filling
+    bool same_surface = false; // voxels of the surface, and their attributes, are those of the tree without filling;
+                               // with Shell::None those of them that are inside
 };
 
 /// Builds and fills the scene's octree. Of scenes that are not closed, only that is told, but with Fill::Robust they
 /// are compared as well; they must lie in the grid.
 FillComparison compareFill(vk::HeadlessDevice& device, const Scene& scene, const Grid& grid, Coverage coverage,
-                           Fill fill);
+                           Fill fill, Shell shell = Shell::Surface);
 
 /// Of the voxels that are inside the closed scene, the share that a fill of the scene with holes has wrong elsewhere
 /// than on its surface; may be above 1.

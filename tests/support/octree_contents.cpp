@@ -63,10 +63,13 @@ public:
     {
         m_attribute_offset = tree.hasOverlays() ? tree.attributeOffset() : 0;
         const std::vector<gpu::uvec2> leaf_groups = device.download(tree.leaf_groups);
-        const std::uint32_t to_surface = tree.filled ? 2 * leaf_groups.at(1).x : 0;
+        m_words_of_leaf = tree.filled && tree.isDag() ? 2 : 1;
+        m_full_node = tree.filled && tree.isDag() ? tree.node_count : UINT32_MAX;
+        const std::uint32_t to_surface = !tree.filled ? 0 : tree.isDag() ? 1 : 2 * leaf_groups.at(1).x;
         std::uint32_t voxels = 0;
-        for (std::uint32_t word = 2 * m_inner_count; word < 2 * m_inner_count + tree.leaf_words; ++word)
+        for (std::uint32_t leaf = 0; leaf < tree.leaf_words; ++leaf)
         {
+            const std::uint32_t word = 2 * m_inner_count + m_words_of_leaf * leaf;
             const gpu::uvec2 mask = wordAt(word);
             const gpu::uvec2 surface = wordAt(word + to_surface);
             const auto low_count = static_cast<std::uint32_t>(std::popcount(surface.x));
@@ -148,7 +151,7 @@ private:
     static bool isLeafWord(const NodeOnPath& place) { return (place.node & gpu::kLeafWords) != 0; }
     [[nodiscard]] std::uint32_t leafOf(const NodeOnPath& place) const
     {
-        return (place.node & ~gpu::kLeafWords) - 2 * m_inner_count;
+        return ((place.node & ~gpu::kLeafWords) - 2 * m_inner_count) / m_words_of_leaf;
     }
     [[nodiscard]] gpu::uvec2 wordAt(std::uint32_t word) const
     {
@@ -156,9 +159,10 @@ private:
         return word % 2 == 0 ? gpu::uvec2(pair.mask_lo, pair.base_lo) : gpu::uvec2(pair.mask_hi, pair.base_hi);
     }
 
+    // Whether a reference names one of the full nodes.
     [[nodiscard]] bool isFull(std::uint32_t reference) const
     {
-        return m_entries_per_word == 0 && (reference & gpu::kFullNodes) != 0;
+        return reference == m_full_node || (m_entries_per_word == 0 && (reference & gpu::kFullNodes) != 0);
     }
 
     // The voxels of a leaf that have attributes.
@@ -166,6 +170,10 @@ private:
     {
         static constexpr gpu::Node kNone{};
         NodeOnPath named = leaf;
+        if (leaf.node == m_full_node)
+        {
+            return kNone;
+        }
         if (!isLeafWord(leaf) && isFull(node(leaf).base_lo)) // of an overlay, or a full node
         {
             named.node = node(leaf).base_lo & ~gpu::kFullNodes;
@@ -191,7 +199,8 @@ private:
 
     [[nodiscard]] gpu::BeforeChild rankAt(const NodeOnPath& parent, std::uint64_t place, std::uint32_t level) const
     {
-        if (m_before.empty() && m_voxels_before_leaf.empty())
+        const bool is_full = place < m_first_entry + gpu::kFullEntries && m_full_node != UINT32_MAX;
+        if (is_full || (m_before.empty() && m_voxels_before_leaf.empty()))
         {
             return {0, 0};
         }
@@ -223,6 +232,8 @@ private:
     std::vector<gpu::BeforeChild> m_before;
     std::vector<gpu::uint> m_voxels_before_leaf;
     std::vector<gpu::BeforeChild> m_ranks;
+    std::uint32_t m_words_of_leaf = 1;
+    std::uint32_t m_full_node = UINT32_MAX; // of a filled DAG
     std::uint32_t m_entries_per_word = 0;
     std::uint64_t m_first_entry = 0;
     std::uint64_t m_long_count = 0;

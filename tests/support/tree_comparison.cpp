@@ -36,6 +36,10 @@ TreeComparison::Subject::Subject(vk::HeadlessDevice& device, const DeviceTree& v
 std::uint64_t TreeComparison::Subject::attributeOf(const gpu::Hit& hit) const
 {
     const bool is_voxel = unpack(hit)->level == tree.grid.nodeLevels();
+    if (hit.index >= gpu::kInteriorIndex)
+    {
+        return UINT64_MAX; // inside of a filled tree
+    }
     const gpu::Attribute& look = (is_voxel ? voxels : nodes).at(hit.index);
     return look.color | std::uint64_t{look.normal} << 32;
 }

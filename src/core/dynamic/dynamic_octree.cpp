@@ -28,6 +28,10 @@ DeviceTree& checked(DeviceTree& fixed, const DynamicOptions& options)
         throw Error(ErrorCode::Usage,
                     "dynamic objects can be merged only with attributes of 8 bytes: build the octree with them");
     }
+    if (fixed.filled && fixed.isDag())
+    {
+        throw Error(ErrorCode::Usage, "a filled DAG cannot be changed: do not compress what is filled");
+    }
     const bool averages = fixed.hasAttributes() && options.merge == MergeRule::Average;
     if (averages && fixed.sums.sums.count() != fixed.voxel_count)
     {

@@ -212,7 +212,7 @@ void requireDagCounts(const TreeData& tree)
                  tree.voxel_count, tree.octree_node_count);
 }
 
-// Of a filled octree: every leaf has cells, those of the surface among them. The last sums fit, as a grid has at most
+// Of a filled tree: every leaf has cells, those of the surface among them. The last sums fit, as a grid has at most
 // 2^51 cells.
 void requireOccupied(const TreeData& tree)
 {
@@ -242,7 +242,6 @@ void requireTree(const TreeData& tree)
     requireGrid(tree.grid);
     const bool is_octree = tree.structure == TreeStructure::Svo;
     requireSound(is_octree || tree.structure == TreeStructure::Svdag, "the structure is neither an octree nor a DAG");
-    requireSound(is_octree || !tree.isFilled(), "a DAG with what only a filled octree has");
     requireSound(!is_octree || (tree.lists.empty() && tree.before.empty() && tree.voxels_before_leaf.empty() &&
                                 tree.long_entry_count == 0 && tree.octree_node_count == tree.nodes.size()),
                  "an octree with what only a DAG has");
@@ -252,15 +251,15 @@ void requireTree(const TreeData& tree)
     {
         requireOctreeNodes(tree);
         requireSound(!tree.nodes.empty() || tree.voxel_count == 0, "there are voxels without nodes");
-        if (tree.isFilled())
-        {
-            requireOccupied(tree);
-        }
     }
     else
     {
         requireDagNodes(tree);
         requireDagCounts(tree);
+    }
+    if (tree.isFilled())
+    {
+        requireOccupied(tree);
     }
     requireAttributes(tree);
 }

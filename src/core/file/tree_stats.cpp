@@ -84,9 +84,11 @@ public:
         {
             const std::uint64_t mask = maskOf(i);
             const auto count = static_cast<std::uint32_t>(std::popcount(mask));
-            of_nodes[i] = classes.classOf(i, hashOf(mask, i, 0, count),
-                                          [&](std::uint64_t other)
-                                          { return maskOf(other) == mask && sameChildren(other, 0, i, 0, count); });
+            of_nodes[i] = classes.classOf(i, mixed(hashOf(mask, i, 0, count), occupiedOf(i)),
+                                          [&](std::uint64_t other) {
+                                              return maskOf(other) == mask && occupiedOf(other) == occupiedOf(i) &&
+                                                     sameChildren(other, 0, i, 0, count);
+                                          });
         }
         unique_count = classes.count();
         return of_nodes;
@@ -145,6 +147,11 @@ public:
 private:
     [[nodiscard]] const gpu::Node& node(std::uint64_t index) const { return m_tree.nodes[m_first_node + index]; }
     [[nodiscard]] std::uint64_t maskOf(std::uint64_t index) const { return cellMask(node(index)); }
+    // Of a leaf of a filled tree; else 0.
+    [[nodiscard]] std::uint64_t occupiedOf(std::uint64_t index) const
+    {
+        return m_below.empty() && m_tree.isFilled() ? m_tree.occupied[index] : 0;
+    }
 
     static std::uint32_t rankBefore(std::uint64_t mask, std::uint32_t octant)
     {

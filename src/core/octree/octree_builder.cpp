@@ -101,6 +101,10 @@ OctreeBuilder::OctreeBuilder(vk::Device& device, const PosedGpuScene& scene, con
         throw Error(ErrorCode::Usage, fmt::format("only grids with a resolution of up to {} are filled as robust",
                                                   1U << kRobustDepthMax));
     }
+    if (options.shell == Shell::None && (options.fill == Fill::None || options.fill == Fill::Robust))
+    {
+        throw Error(ErrorCode::Usage, "the shell can be left out only of what is filled as solid or by parity");
+    }
     m_step = {&OctreeBuilder::cover, &OctreeBuilder::learnCoverage};
     m_readback = {device, kBrickReadbackBytes};
     m_result.octree.grid = grid;
@@ -110,6 +114,7 @@ OctreeBuilder::OctreeBuilder(vk::Device& device, const PosedGpuScene& scene, con
     m_form.coverage = options.coverage;
     m_form.attributes = options.attributes;
     m_form.fill = options.fill;
+    m_form.shell = options.shell;
     m_form.emission = options.attributes && uploaded.emission_scale > 0.0F;
     m_form.mixed = sums.mixed && options.attributes && !options.keep_sums && !m_form.emission &&
                    (options.sum_form || hasLargeTriangles(uploaded, grid));

@@ -33,6 +33,7 @@ struct BuildOptions
     /// sums are kept, or something emits light, all voxels have sums in any case.
     std::optional<SumForm> sum_form = std::nullopt;
     Fill fill = Fill::None;
+    Shell shell = Shell::Surface;
 };
 
 /// GPU time of those passes that belong to an operation, "voxelize" or "octree": its kernels and the fills of its

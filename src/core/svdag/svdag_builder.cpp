@@ -69,16 +69,18 @@ void allocatePool(vk::Device& device, const Candidates& candidates, const gpu::C
                   std::uint32_t per_word_max, DeviceTree& dag)
 {
     dag.node_count = sizes.node_count;
-    dag.lists.entry_count = sizes.entry_count;
+    dag.filled = candidates.tree.filled;
+    const std::uint32_t full_entries = dag.fullEntries();
+    dag.lists.entry_count = std::uint64_t{sizes.entry_count} + full_entries;
     const std::size_t level_count = candidates.levels().size();
     for (std::size_t level = 0; level < level_count; ++level)
     {
         const std::uint32_t end = level + 1 < level_count ? sizes.first_nodes[level + 1] : sizes.node_count;
         dag.levels.push_back({sizes.first_nodes[level], end - sizes.first_nodes[level]});
     }
-    dag.lists.long_entry_count = level_count < 2 ? 0 : sizes.first_entries[level_count - 2];
+    dag.lists.long_entry_count = full_entries + (level_count < 2 ? 0 : sizes.first_entries[level_count - 2]);
     dag.leaf_words = leafWordsOf(dag.levels);
-    ListPacking packing = ListPacking::tightest(dag.nodeWords(), dag.nodeWords(), sizes.entry_count);
+    ListPacking packing = ListPacking::tightest(dag.nodeWords(), dag.nodeWords(), dag.lists.entry_count);
     packing.per_word = std::min(packing.per_word, per_word_max);
     dag.lists.entries_per_word = packing.per_word;
     if (!packing.fits(gpu::kLeafWords))
@@ -104,10 +106,10 @@ void writeLevel(vk::FrameGraph& graph, const Candidates& candidates, std::size_t
     const auto [first_node, node_count] = dag.levels[level];
     if (level + 1 == dag.levels.size())
     {
-        vk::Pass pass = graph.addPass(gpu::svdag::Leaves{});
+        vk::Pass pass = graph.addPass(gpu::svdag::Leaves{.filled = dag.filled});
         const gpu::UniqueLeavesParams params = {
             pass.read(candidates.tree.nodes), pass.read(classes.table), pass.write(dag.nodes), first_node, node_count,
-            candidates.reference(level)};
+            candidates.reference(level),      candidates.surface()};
         pass.dispatch(node_count, params);
         return;
     }
@@ -115,7 +117,8 @@ void writeLevel(vk::FrameGraph& graph, const Candidates& candidates, std::size_t
     vk::Pass pass = graph.addPass(gpu::svdag::Lists{.entries_per_word = candidates.tree.entriesPerWord(),
                                                     .before = below.count() != 0,
                                                     .above_leaves = above_leaves,
-                                                    .per_word = dag.lists.entries_per_word});
+                                                    .per_word = dag.lists.entries_per_word,
+                                                    .filled = dag.filled});
     gpu::UniqueListsParams params{};
     params.nodes = pass.read(candidates.tree.nodes);
     params.classes = pass.read(classes.classes);
@@ -133,6 +136,7 @@ void writeLevel(vk::FrameGraph& graph, const Candidates& candidates, std::size_t
     params.long_entry_count = static_cast<std::uint32_t>(dag.lists.long_entry_count);
     params.child_reference = candidates.reference(level + 1);
     params.leaf_reference = above_leaves ? dag.leafReference() : 0;
+    params.full_node = dag.node_count;
     pass.dispatch(node_count, params);
 }
 
@@ -167,7 +171,7 @@ void orderDepthFirst(vk::FrameGraph& graph, const DeviceTree& octree, ClassBuffe
         params.nodes = pass.read(octree.nodes);
         params.classes = pass.read(classes.classes);
         params.first_entries = pass.read(classes.first_entries);
-        params.before = pass.read(dag.lists.before);
+        params.before = {pass.read(dag.lists.before).address + dag.fullEntries() * sizeof(gpu::BeforeChild)};
         if (packed)
         {
             params.from = {pass.read(octree.packed.nodes).address};
@@ -191,6 +195,8 @@ void moveVoxels(DeviceTree& from, DeviceTree& to)
 {
     to.grid = from.grid;
     to.voxel_count = from.voxel_count;
+    to.filled = from.filled;
+    to.interior_count = from.interior_count;
     to.voxel_attributes = std::move(from.voxel_attributes);
     to.packed.format = from.packed.format;
     to.packed.voxels = std::move(from.packed.voxels);
@@ -225,7 +231,10 @@ SvdagBuilder::SvdagBuilder(vk::Device& device, DeviceTree source, const Compress
       m_has_ranks(m_source.hasAttributes() || options.ranks)
 {
     requireLevels(m_source);
-    requireUnfilled(m_source, "be compressed");
+    if (m_source.filled && m_source.isDag())
+    {
+        throw Error(ErrorCode::Usage, "a filled DAG is not compressed again");
+    }
     m_result.dag.structure = TreeStructure::Svdag;
     m_result.dag.lists.octree_node_count = m_source.octreeNodeCount();
     if (m_source.node_count == 0)

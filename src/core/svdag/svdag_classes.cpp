@@ -53,7 +53,8 @@ void findClassesOf(vk::FrameGraph& graph, const Candidates& candidates, std::siz
                                    .child_reference = candidates.reference(level + 1)});
     }
     {
-        vk::Pass pass = graph.addPass(gpu::svdag::Insert{.entries_per_word = per_word, .leaves = are_leaves});
+        vk::Pass pass = graph.addPass(
+            gpu::svdag::Insert{.entries_per_word = per_word, .leaves = are_leaves, .filled = candidates.tree.filled});
         pass.dispatch(node_count, {.nodes = pass.read(candidates.tree.nodes),
                                    .hashes = pass.read(buffers.hashes),
                                    .classes = pass.readWrite(buffers.classes),
@@ -65,7 +66,8 @@ void findClassesOf(vk::FrameGraph& graph, const Candidates& candidates, std::siz
                                    .slot_mask = static_cast<std::uint32_t>(slot_counts[level] - 1),
                                    .level = static_cast<std::uint32_t>(level),
                                    .reference = candidates.reference(level),
-                                   .child_reference = candidates.reference(level + 1)});
+                                   .child_reference = candidates.reference(level + 1),
+                                   .surface = candidates.surface()});
     }
     vk::Pass pass = graph.addPass(gpu::svdag::Resolve{});
     const gpu::ClassResolveParams params = {pass.readWrite(buffers.classes), pass.read(buffers.table), first_node,
@@ -87,7 +89,7 @@ void numberClasses(vk::FrameGraph& graph, const Candidates& candidates, ClassBuf
 {
     const std::uint64_t threads = divideUp(candidates.count(), gpu::kScanItems);
     {
-        vk::Pass pass = graph.addPass(gpu::svdag::Count{});
+        vk::Pass pass = graph.addPass(gpu::svdag::Count{.entries_per_word = candidates.tree.entriesPerWord()});
         pass.dispatch(threads, {.nodes = pass.read(candidates.tree.nodes),
                                 .classes = pass.read(buffers.classes),
                                 .node_partials = pass.write(buffers.node_partials),
@@ -97,7 +99,7 @@ void numberClasses(vk::FrameGraph& graph, const Candidates& candidates, ClassBuf
     }
     scan(graph, buffers.node_partials, buffers.sizes, offsetof(gpu::ClassSizes, node_count));
     scan(graph, buffers.entry_partials, buffers.sizes, offsetof(gpu::ClassSizes, entry_count));
-    vk::Pass pass = graph.addPass(gpu::svdag::Number{});
+    vk::Pass pass = graph.addPass(gpu::svdag::Number{.entries_per_word = candidates.tree.entriesPerWord()});
     pass.dispatch(threads, {.nodes = pass.read(candidates.tree.nodes),
                             .classes = pass.read(buffers.classes),
                             .node_partials = pass.read(buffers.node_partials),

@@ -29,6 +29,13 @@ struct Candidates
     {
         return level + 1 == tree.levels.size() ? tree.leafReference() : 0;
     }
+
+    /// From the reference of a leaf of a filled octree to that of its surface mask.
+    [[nodiscard]] std::uint32_t surface() const
+    {
+        const std::uint64_t first_mask = tree.nodeWords() - tree.leaf_words;
+        return tree.filled ? static_cast<std::uint32_t>(first_mask - 2 * std::uint64_t{tree.innerCount()}) : 0;
+    }
 };
 
 /// The number of slots in the table of classes for each level: powers of two. at_first: the number for every level; 0:

@@ -1,20 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "core/tree/device_tree.h"
 
-#include "zvo/error.h"
-
-#include <fmt/format.h>
-
 namespace zvo
 {
-
-void requireUnfilled(const DeviceTree& tree, const char* what)
-{
-    if (tree.filled)
-    {
-        throw Error(ErrorCode::Usage, fmt::format("a filled octree cannot {}; build it without --fill", what));
-    }
-}
 
 gpu::RankSource rankSource(const DeviceTree& tree)
 {

@@ -22,9 +22,9 @@ namespace zvo
 struct ChildLists
 {
     std::uint32_t octree_node_count = 0; // nodes of the octree that the DAG stands for
-    std::uint64_t entry_count = 0;
-    std::uint32_t entries_per_word = 2;         // a word has 64 bits; compress() packs as ListPacking::tightest
-    std::uint64_t long_entry_count = 0;         // entries of nodes above the parents of leaves
+    std::uint64_t entry_count = 0;      // those of the full node of a filled DAG included, here and in the next but one
+    std::uint32_t entries_per_word = 2; // a word has 64 bits; compress() packs as ListPacking::tightest
+    std::uint64_t long_entry_count = 0; // entries of nodes above the parents of leaves
     vk::BufferOf<gpu::BeforeChild> before;      // [long_entry_count], or empty without attributes
     vk::BufferOf<gpu::uint> voxels_before_leaf; // [ceil((entry_count - long_entry_count) / 2)], likewise
 
@@ -121,12 +121,17 @@ struct DeviceTree
     /// Words of 64 bits of nodes, leaf words, full nodes and surface masks, which the lists stand behind.
     [[nodiscard]] std::uint64_t nodeWords() const
     {
+        if (filled && isDag())
+        {
+            return 2 * (std::uint64_t{node_count} + 1); // leaves have their surface masks; the full node is the last
+        }
         const std::uint64_t words = std::uint64_t{2} * node_count - leaf_words;
         const std::uint64_t full_nodes = (words + 1) / 2 + gpu::kFullNodeCount;
         return filled ? 2 * full_nodes + leaf_words : words; // the surface masks end the pool
     }
 
-    /// What, added to the number of a leaf, gives its reference (shaders/shared/octree.h).
+    /// What, added to the number of a leaf, gives its reference (shaders/shared/octree.h). Not of a filled DAG, in
+    /// which a leaf's word has twice the number of the leaf.
     [[nodiscard]] std::uint32_t leafReference() const { return leaf_words != 0 ? gpu::kLeafWords + innerCount() : 0; }
 
     /// How the lists of a DAG are packed.
@@ -135,8 +140,15 @@ struct DeviceTree
     /// Number of nodes of the octree; for a DAG, of the octree that it stands for.
     [[nodiscard]] std::uint32_t octreeNodeCount() const { return isDag() ? lists.octree_node_count : node_count; }
 
-    /// The value that kernels take: entries of a word of lists, or 0 for an octree, which has no lists.
-    [[nodiscard]] std::uint32_t entriesPerWord() const { return isDag() ? lists.entries_per_word : 0; }
+    /// The value that kernels take: entries of a word of lists, with a flag if the DAG is filled, or 0 for an octree,
+    /// which has no lists.
+    [[nodiscard]] std::uint32_t entriesPerWord() const
+    {
+        return isDag() ? lists.entries_per_word | (filled ? gpu::kFilledDag : 0) : 0;
+    }
+
+    /// Entries of the full node of a filled DAG, which are the first ones, and long.
+    [[nodiscard]] std::uint32_t fullEntries() const { return filled && isDag() ? gpu::kFullEntries : 0; }
 
     /// The number that, added to the number of the static root or of a node behind it, gives the index of the node's
     /// attributes; modulo 2^32.
@@ -155,9 +167,6 @@ struct DeviceTree
                emission.bytes();
     }
 };
-
-/// Throws Error{Usage} for a filled tree. what: cannot be done with one, as "be compressed".
-void requireUnfilled(const DeviceTree& tree, const char* what);
 
 /// The arrays of a DAG with attributes from which ranks are summed up; of an octree, the leaf groups. Declares that
 /// pass reads them.

@@ -74,6 +74,89 @@ void shiftTree(std::span<const DeviceTree::Level> levels, std::uint64_t long_ent
     }
 }
 
+// In a filled DAG, entries that name leaves have twice their numbers: those of the words.
+void nameLeafWords(std::span<gpu::uint> lists, std::uint64_t long_entry_count)
+{
+    std::ranges::for_each(lists.subspan(long_entry_count), [](gpu::uint& entry) { entry *= 2; });
+}
+
+// The pool of a filled DAG: the same as the TreeData's nodes and lists, with a full node and its list.
+TreePool filledDagPool(const TreeData& tree)
+{
+    TreePool pool;
+    pool.leaf_words = leafWordsOf(tree.levels);
+    const std::uint64_t node_words = 2 * (tree.nodes.size() + 1);
+    const ListPacking packing = ListPacking::tightest(node_words, node_words, gpu::kFullEntries + tree.lists.size());
+    pool.entries_per_word = packing.per_word;
+    if (!packing.fits(gpu::kLeafWords))
+    {
+        throwUncountable("words of nodes");
+    }
+    const auto full_base = gpu::kChildList | static_cast<gpu::uint>(packing.firstEntry());
+    const auto moved = static_cast<gpu::uint>(packing.firstEntry() + gpu::kFullEntries - tree.packing().firstEntry());
+
+    pool.nodes = tree.nodes;
+    std::vector<gpu::uint> lists(gpu::kFullEntries, static_cast<gpu::uint>(tree.nodes.size()));
+    lists.insert(lists.end(), tree.lists.begin(), tree.lists.end());
+    shiftTree(tree.levels, lists.size(), {moved, moved + gpu::kLeafWords, 0}, pool.nodes, lists);
+    nameLeafWords(lists, gpu::kFullEntries + tree.long_entry_count);
+    const gpu::Node full = {~0U, full_base, ~0U, full_base + 32};
+    const std::uint64_t inner_count = tree.nodes.size() - pool.leaf_words;
+    for (std::uint64_t i = 0; i < tree.nodes.size(); ++i)
+    {
+        gpu::Node& node = pool.nodes[i];
+        if (i < inner_count)
+        {
+            node = cellMask(node) == 0 ? full : node;
+            continue;
+        }
+        const std::uint64_t occupied = tree.occupied[i - inner_count];
+        node = {static_cast<gpu::uint>(occupied), static_cast<gpu::uint>(occupied >> 32), node.mask_lo, node.mask_hi};
+    }
+    pool.nodes.push_back(full);
+    std::ranges::copy(nodesOf(packEntries(lists, packing.per_word)), std::back_inserter(pool.nodes));
+    return pool;
+}
+
+// Sets the bases of full nodes of a DAG, whose masks are empty: their lists would come where those before end.
+void setFullListBases(TreeData& tree)
+{
+    std::uint64_t next = tree.packing().firstEntry();
+    for (gpu::Node& node : std::span(tree.nodes).first(tree.levels.back().first_node))
+    {
+        const gpu::uint base = gpu::kChildList | static_cast<gpu::uint>(next);
+        node = cellMask(node) == 0 ? gpu::Node{0, base, 0, base} : node;
+        next += voxelsIn(cellMask(node));
+    }
+}
+
+// Sets the nodes and lists of a tree from the words of the pool of a filled DAG.
+void setFilledDag(std::span<const std::uint64_t> words, const DeviceTree& from, TreeData& tree)
+{
+    const ListPacking packing = from.packing();
+    const auto full_base = gpu::kChildList | static_cast<gpu::uint>(packing.firstEntry());
+    std::ranges::replace_if(
+        tree.nodes, [&](const gpu::Node& node) { return node.base_lo == full_base; }, gpu::Node{});
+    tree.interior_count = from.interior_count;
+    std::vector<std::uint64_t> surfaces;
+    for (std::uint64_t leaf = from.innerCount(); leaf < from.node_count; ++leaf)
+    {
+        tree.occupied.push_back(words[2 * leaf]);
+        surfaces.push_back(words[2 * leaf + 1]);
+    }
+    appendLeaves(surfaces, tree);
+    const std::vector<gpu::uint> lists =
+        unpackEntries(words.subspan(packing.node_words, packing.wordCount()), packing.entry_count, packing.per_word);
+    tree.lists.assign(lists.begin() + gpu::kFullEntries, lists.end());
+    for (gpu::uint& entry : std::span(tree.lists).subspan(tree.long_entry_count))
+    {
+        entry /= 2;
+    }
+    const auto moved = static_cast<gpu::uint>(tree.packing().firstEntry() - packing.firstEntry() - gpu::kFullEntries);
+    shiftTree(tree.levels, tree.lists.size(), {moved, moved - gpu::kLeafWords, 0}, tree.nodes, tree.lists);
+    setFullListBases(tree);
+}
+
 // Sets the bases of full nodes, whose masks are empty: their children would come where those of the nodes before end.
 void setFullBases(TreeData& tree)
 {
@@ -110,6 +193,10 @@ gpu::uvec2 firstLeafGroup(std::uint64_t inner_count, std::uint64_t leaf_count, b
 
 TreePool poolOf(const TreeData& tree)
 {
+    if (tree.isFilled() && tree.structure == TreeStructure::Svdag)
+    {
+        return filledDagPool(tree);
+    }
     TreePool pool;
     const std::uint64_t node_count = tree.nodes.size();
     pool.leaf_words = leafWordsOf(tree.levels);
@@ -170,6 +257,11 @@ void setNodes(std::span<const gpu::Node> pool, const DeviceTree& from, TreeData&
     const std::vector<std::uint64_t> words = wordsOf(pool);
     const bool is_dag = from.isDag();
     tree.nodes.assign(pool.begin(), pool.begin() + from.innerCount());
+    if (is_dag && from.filled)
+    {
+        setFilledDag(words, from, tree);
+        return;
+    }
     std::ranges::replace_if(
         tree.nodes, [&](const gpu::Node& node) { return from.filled && (node.base_lo & gpu::kFullNodes) != 0; },
         gpu::Node{});

@@ -43,6 +43,12 @@ std::uint64_t TreeData::geometryBytes() const
     const std::uint64_t group_words = has_groups ? gpu::kFirstLeafGroup + divideUp(node_words, gpu::kLeafGroup) : 0;
     const std::uint64_t list_words = ListPacking::tightest(node_words, node_words, lists.size()).wordCount();
     const std::uint64_t full_nodes = firstFullNode(nodes.size() - leaf_words, leaf_words) + gpu::kFullNodeCount;
+    if (isFilled() && structure == TreeStructure::Svdag)
+    {
+        const std::uint64_t words = 2 * (nodes.size() + 1); // with the full node
+        return (words + ListPacking::tightest(words, words, gpu::kFullEntries + lists.size()).wordCount()) *
+               sizeof(std::uint64_t);
+    }
     if (isFilled())
     {
         return (2 * full_nodes + leaf_words + group_words) * sizeof(std::uint64_t);
@@ -52,7 +58,9 @@ std::uint64_t TreeData::geometryBytes() const
 
 std::uint64_t TreeData::rankBytes() const
 {
-    return bytesOf(before) + bytesOf(voxels_before_leaf);
+    const bool has_full = isFilled() && !voxels_before_leaf.empty();
+    return bytesOf(before) + bytesOf(voxels_before_leaf) +
+           (has_full ? gpu::kFullEntries * sizeof(gpu::BeforeChild) : 0);
 }
 
 std::uint64_t TreeData::attributeBytes() const
@@ -85,11 +93,17 @@ DeviceTree uploadTree(vk::Uploader& device, const TreeData& tree)
     copy.emission_scale = tree.emission_scale;
     copy.nodes = uploadVector(device, tree.structure == TreeStructure::Svo ? "octree/nodes" : "svdag/pool", pool.nodes);
     copy.leaf_groups = uploadVector(device, "octree/leaf_groups", pool.leaf_groups);
+    std::vector<gpu::BeforeChild> before;
+    if (copy.fullEntries() != 0 && !tree.voxels_before_leaf.empty())
+    {
+        before.assign(copy.fullEntries(), {0, gpu::kInteriorIndex});
+    }
+    before.insert(before.end(), tree.before.begin(), tree.before.end());
     copy.lists = {tree.octree_node_count,
-                  tree.lists.size(),
+                  copy.fullEntries() + tree.lists.size(),
                   pool.entries_per_word,
-                  tree.long_entry_count,
-                  uploadVector(device, "svdag/before", tree.before),
+                  copy.fullEntries() + tree.long_entry_count,
+                  uploadVector(device, "svdag/before", before),
                   uploadVector(device, "svdag/voxels_before_leaf", tree.voxels_before_leaf)};
     return copy;
 }
@@ -161,20 +175,29 @@ std::uint64_t interiorCount(const TreeData& tree)
     {
         return 0;
     }
-    std::uint64_t count = 0;
-    std::uint64_t voxels = 1; // of a full node
+    std::vector<std::uint64_t> below; // of the nodes of the level below
+    std::uint64_t voxels = 1;         // of a full node
     for (std::size_t level = tree.levels.size(); level-- > 0; voxels <<= kCellBits)
     {
-        for (std::uint32_t i = 0; i < tree.levels[level].node_count; ++i)
+        std::vector<std::uint64_t> counts(tree.levels[level].node_count);
+        for (std::uint32_t i = 0; i < counts.size(); ++i)
         {
-            const std::uint64_t mask = cellMask(tree.nodes[tree.levels[level].first_node + i]);
-            const bool is_leaf = level + 1 == tree.levels.size();
-            count += is_leaf     ? static_cast<std::uint64_t>(std::popcount(tree.occupied[i] & ~mask))
-                     : mask == 0 ? voxels << kCellBits
-                                 : 0;
+            const gpu::Node& node = tree.nodes[tree.levels[level].first_node + i];
+            const auto child_count = static_cast<std::uint32_t>(std::popcount(cellMask(node)));
+            if (level + 1 == tree.levels.size())
+            {
+                counts[i] = static_cast<std::uint64_t>(std::popcount(tree.occupied[i] & ~cellMask(node)));
+                continue;
+            }
+            counts[i] = child_count == 0 ? voxels << kCellBits : 0;
+            for (std::uint32_t rank = 0; rank < child_count; ++rank)
+            {
+                counts[i] += below[tree.child(node, rank) - tree.levels[level + 1].first_node];
+            }
         }
+        below = std::move(counts);
     }
-    return count;
+    return below.front();
 }
 
 std::optional<CellBox> voxelBox(const TreeData& tree)

@@ -20,8 +20,9 @@ const char* structureName(TreeStructure structure);
 inline constexpr std::uint32_t kPlainColor = 203 * 0x10101U;
 
 /// A whole octree or DAG in the host's memory. The arrays are those of a DeviceTree, except that all leaves are nodes,
-/// and that the nodes and the lists of a DAG's pool are separate (core/tree/leaf_words.h). In a filled octree, leaves
-/// have the voxels of the surface, and a full node has an empty mask.
+/// and that the nodes and the lists of a DAG's pool are separate (core/tree/leaf_words.h). In a filled tree, leaves
+/// have the voxels of the surface, and a full node has an empty mask: of a DAG it has no list either, and the one
+/// behind the leaves is not there.
 struct TreeData
 {
     TreeStructure structure = TreeStructure::Svo;
@@ -30,13 +31,13 @@ struct TreeData
     std::uint32_t octree_node_count = 0; // nodes of the octree; for an octree, nodes.size()
     std::uint64_t long_entry_count = 0;  // entries of lists above the parents of leaves
 
-    std::vector<DeviceTree::Level> levels; // grid.nodeLevels() of them, or none without voxels
-    std::vector<gpu::Node> nodes;          // the root first
-    std::vector<std::uint64_t> occupied;   // [leaves] of a filled octree: the masks of surface and inside; else empty
-    std::uint64_t interior_count = 0;      // voxels of a filled octree that are inside and not on the surface
-    std::vector<gpu::uint> lists;          // [entries] node numbers; only in a DAG
-    std::vector<gpu::BeforeChild> before;  // [long_entry_count] only in a DAG with attributes
-    std::vector<gpu::uint> voxels_before_leaf;    // [ceil((entries - long_entry_count) / 2)] likewise
+    std::vector<DeviceTree::Level> levels;     // grid.nodeLevels() of them, or none without voxels
+    std::vector<gpu::Node> nodes;              // the root first
+    std::vector<std::uint64_t> occupied;       // [leaves] of a filled tree: the masks of surface and inside; else empty
+    std::uint64_t interior_count = 0;          // voxels of a filled tree that are inside and not on the surface
+    std::vector<gpu::uint> lists;              // [entries] node numbers; only in a DAG
+    std::vector<gpu::BeforeChild> before;      // [long_entry_count] only in a DAG with attributes
+    std::vector<gpu::uint> voxels_before_leaf; // [ceil((entries - long_entry_count) / 2)] likewise
     std::vector<gpu::Attribute> voxel_attributes; // [voxel_count] in Morton order, or empty
     std::vector<gpu::Attribute> node_attributes;  // [octree_node_count] in the structure's order, or empty
     PackedWords packed;                           // attributes in another format, in place of both arrays above
@@ -103,13 +104,14 @@ inline std::uint64_t cellMask(const gpu::Node& node)
 DeviceTree uploadTree(vk::Uploader& device, const TreeData& tree);
 
 /// Calls `what` with the Morton code of every voxel, in ascending order: the i-th call is for voxel i. Those of a
-/// filled octree are the ones on the surface.
+/// filled tree are the ones on the surface.
 void forEachVoxel(const TreeData& tree, const std::function<void(std::uint64_t code)>& what);
 
 /// Calls `what` with the Morton codes of all voxels in ascending order, and whether they are on the surface.
 void forEachCell(const TreeData& tree, const std::function<void(std::uint64_t code, bool on_surface)>& what);
 
-/// The voxels of a filled octree that are inside and not on the surface; 0 for other trees. Full nodes count at once.
+/// The voxels of a filled tree that are inside and not on the surface; 0 for other trees. For a tree that checkTree
+/// accepts. Cost: nodes and entries of lists.
 std::uint64_t interiorCount(const TreeData& tree);
 
 /// The smallest box of cells that encloses all voxels: its lowest cell, and the cell one past the highest along each

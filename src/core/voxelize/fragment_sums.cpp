@@ -29,7 +29,8 @@ void recordFragments(vk::FrameGraph& graph, const VoxelizeJob& job, RasterMode m
                                          .material_class = job.scene.uploaded().highestClass(),
                                          .coverage = buffers.form.coverage,
                                          .mode = mode,
-                                         .emits = buffers.form.emission});
+                                         .emits = buffers.form.emission,
+                                         .centres = buffers.form.shell == Shell::None});
     readColorTables(pass, job.scene.uploaded());
     gpu::AttributesParams params{};
     params.scene = job.scene.read(pass);

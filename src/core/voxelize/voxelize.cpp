@@ -82,7 +82,8 @@ std::uint32_t planesOf(const VoxelForm& form, const VoxelizeCapacities& capaciti
 
 std::uint64_t crossingWordsOf(const VoxelForm& form, const VoxelizeCapacities& capacities)
 {
-    return capacities.bricks * gpu::fillWords(planesOf(form, capacities), form.fill == Fill::Robust);
+    return capacities.bricks *
+           gpu::fillWords(planesOf(form, capacities), form.fill == Fill::Robust, form.shell == Shell::None);
 }
 
 // What is allocated has indices of 32 bits.
@@ -188,7 +189,8 @@ void coverItems(vk::FrameGraph& graph, const VoxelizeJob& job, bool known, gpu::
                                                        .coverage = buffers.form.coverage,
                                                        .emits = buffers.form.emission,
                                                        .fill_planes = buffers.fill_planes,
-                                                       .robust = buffers.form.fill == Fill::Robust});
+                                                       .robust = buffers.form.fill == Fill::Robust,
+                                                       .centres = buffers.form.shell == Shell::None});
     readColorTables(pass, job.scene.uploaded());
     const gpu::Ptr<gpu::BinCounters> counters = buffers.fill_planes != 0
                                                     ? pass.accumulate(buffers.counters)
@@ -410,16 +412,22 @@ void fillBricks(vk::FrameGraph& graph, const VoxelizeJob& job)
                               groups);
     }
     {
-        vk::Pass pass = graph.addPass(gpu::voxelize::FillVoxels{
-            .wide_keys = wide, .fill_planes = buffers.fill_planes, .fill = buffers.form.fill});
-        pass.dispatchIndirect(buffers.counters, &gpu::BinCounters::fill,
-                              {.bricks = pass.readWrite(buffers.table),
-                               .ranges = pass.read(buffers.ranges),
-                               .crossings = pass.readWrite(buffers.crossings),
-                               .counters = pass.readWrite(buffers.counters),
-                               .window = window,
-                               .brick_mask = count32(buffers.table) - 1},
-                              groups * fillLanes(buffers.form));
+        const bool centres = buffers.form.shell == Shell::None;
+        vk::Pass pass = graph.addPass(gpu::voxelize::FillVoxels{.wide_keys = wide,
+                                                                .fill_planes = buffers.fill_planes,
+                                                                .fill = buffers.form.fill,
+                                                                .centres = centres,
+                                                                .mixed = buffers.form.mixed});
+        pass.dispatchIndirect(
+            buffers.counters, &gpu::BinCounters::fill,
+            {.bricks = pass.readWrite(buffers.table),
+             .ranges = pass.read(buffers.ranges),
+             .crossings = pass.readWrite(buffers.crossings),
+             .masks = centres ? pass.readWrite(buffers.masks) : gpu::Ptr<gpu::uint>{pass.read(buffers.masks).address},
+             .counters = pass.readWrite(buffers.counters),
+             .window = window,
+             .brick_mask = count32(buffers.table) - 1},
+            groups * fillLanes(buffers.form));
     }
     if (robust)
     {

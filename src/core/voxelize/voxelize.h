@@ -46,6 +46,7 @@ struct VoxelForm
     bool emission = false;  // the fragments emit light; only with attributes
     bool mixed = false;     // the masks tell which voxels are mixed: several fragments share them
     Fill fill = Fill::None;
+    Shell shell = Shell::Surface; // None: not with Fill::Robust
 
     bool operator==(const VoxelForm&) const = default;
 };
@@ -115,7 +116,10 @@ struct VoxelizeBuffers
     vk::BufferOf<gpu::BinCounters> counters; // [1]
 
     /// The words of a brick's crossings.
-    [[nodiscard]] std::uint32_t fillWords() const { return gpu::fillWords(fill_planes, form.fill == Fill::Robust); }
+    [[nodiscard]] std::uint32_t fillWords() const
+    {
+        return gpu::fillWords(fill_planes, form.fill == Fill::Robust, form.shell == Shell::None);
+    }
 };
 
 /// The triangles that a voxelization left out, by reason; only reasons that occurred.

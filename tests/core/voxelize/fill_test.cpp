@@ -6,6 +6,7 @@
 #include "runtime/octree_sha256.h"
 #include "runtime/trees.h"
 #include "support/engine_device.h"
+#include "support/errors.h"
 #include "support/fill_compare.h"
 #include "support/queries.h"
 #include "support/same_bytes.h"
@@ -21,6 +22,7 @@
 #include <optional>
 #include <random>
 #include <span>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -33,9 +35,10 @@ using test::device;
 
 // Expects that the cells of a filled tree are those of the surface and those whose centres have a winding number.
 // Returns how many are inside.
-std::uint64_t expectFilled(const Scene& scene, const Grid& grid, Coverage coverage, Fill fill)
+std::uint64_t expectFilled(const Scene& scene, const Grid& grid, Coverage coverage, Fill fill,
+                           Shell shell = Shell::Surface)
 {
-    const test::FillComparison found = test::compareFill(device(), scene, grid, coverage, fill);
+    const test::FillComparison found = test::compareFill(device(), scene, grid, coverage, fill, shell);
     EXPECT_TRUE(found.is_closed);
     EXPECT_EQ(found.wrong, 0U);
     EXPECT_TRUE(found.same_surface);
@@ -90,6 +93,61 @@ TEST(Fill, OfSurfacesWithHolesIsWhatMostRaysSay)
     }
     EXPECT_GT(interior, 5000U);
     EXPECT_GT(undecided, 100U);
+}
+
+// Without the shell, voxels of the surface are there if their centres are inside, also where these lie on triangles.
+TEST(Fill, WithoutAShellIsWhatIsInside)
+{
+    std::mt19937 random(5);
+    std::uint64_t interior = 0;
+    for (int round = 0; round < 24; ++round)
+    {
+        SCOPED_TRACE(round);
+        const Grid grid = {glm::vec3(0), 1.0F, 3 + static_cast<std::uint32_t>(round % 3)};
+        const float half = static_cast<float>(grid.resolution()) / 2;
+        const Scene scene =
+            round % 8 == 7 ? test::sphereScene(glm::vec3(half), 0.9F * half, 12) : test::tetrahedra(random, grid);
+        interior += expectFilled(scene, grid, round % 3 == 0 ? Coverage::Conservative : Coverage::Thin,
+                                 round % 2 == 0 ? Fill::Solid : Fill::Parity, Shell::None);
+    }
+    EXPECT_GT(interior, 5000U);
+}
+
+// Sums of all voxels or of mixed ones, in both forms, and full nodes.
+TEST(Fill, WithoutAShellHasTheSameAttributesByAnySums)
+{
+    const Grid grid = {glm::vec3(0), 1.0F, 6};
+    const GpuScene scene = uploadScene(device(), test::sphereScene(glm::vec3(31, 32, 33), 29, 3), true);
+    std::optional<std::string> expected;
+    for (const bool mixed : {false, true})
+    {
+        for (const std::uint32_t planes : {1U, 4U})
+        {
+            VoxelizeCapacities capacities = VoxelizeCapacities::estimate(scene, grid, Coverage::Thin);
+            capacities.fill_planes = planes;
+            const BuildResult built = buildOctree(device(), scene, grid,
+                                                  {.capacities = capacities,
+                                                   .sum_form = SumForm{.int64 = false, .mixed = mixed},
+                                                   .fill = Fill::Solid,
+                                                   .shell = Shell::None});
+            const std::string sha256 = octreeSha256(device(), built.octree);
+            EXPECT_EQ(sha256, expected.value_or(sha256));
+            expected = sha256;
+        }
+    }
+}
+
+TEST(Fill, WithoutAShellTakesAFillByWindingNumbers)
+{
+    const Grid grid = {glm::vec3(0), 1.0F, 4};
+    const GpuScene scene = uploadScene(device(), test::sphereScene(glm::vec3(8), 6, 4), true);
+    for (const Fill fill : {Fill::None, Fill::Robust})
+    {
+        EXPECT_NE(test::messageOf([&] { buildOctree(device(), scene, grid, {.fill = fill, .shell = Shell::None}); },
+                                  ErrorCode::Usage)
+                      .find("shell"),
+                  std::string::npos);
+    }
 }
 
 struct FilledBall
