@@ -70,6 +70,53 @@ void cutNode(uint entry, uvec2 mask)
     atomicOr(carved.data[entry].cut_hi, mask.y);
 }
 
+// Lists an entry that was claimed, and inserts the nodes above it.
+void insertParents(uint entry, uvec2 key, uint height, bool claimed)
+{
+    for (; claimed && height < params.level_count; ++height)
+    {
+        if (!kCarves)
+            listTouched(entry, height);
+        claimed = false;
+        if (height + 1u < params.level_count)
+        {
+            uvec2 child = key;
+            key = parentKey(child);
+            entry = brickFindOrInsert(key, claimed);
+            if (entry != kNoEntry)
+                setCell(entry, child.x & 63u);
+            else
+                atomicAdd(params.counters.data[0].overflow_count, 1u);
+        }
+    }
+}
+
+// Inserts the leaves beside a leaf that lose a neighbour of their voxels, so that these get attributes.
+void insertExposed(uvec2 key, uvec2 cut)
+{
+    uint level = params.level_count - 1u;
+    uvec3 leaf = brickCell(key, level);
+    for (uint side = 0u; side < 6u; ++side)
+    {
+        uvec2 low = uvec2(side < 2u ? 0x00550055u : side < 4u ? 0x00003333u : 0x0f0f0f0fu);
+        uvec2 high = uvec2(side < 2u ? 0xaa00aa00u : side < 4u ? 0xcccc0000u : 0xf0f0f0f0u);
+        low.y = side < 4u ? low.y : 0u; // the lower half of a mask has the cells with z < 2
+        high.x = side < 4u ? high.x : 0u;
+        uvec2 facing = cut & ((side & 1u) != 0u ? high : low);
+        uvec3 beside = leaf + uvec3(equal(uvec3(side >> 1), uvec3(0u, 1u, 2u))) * ((side & 1u) != 0u ? 1u : ~0u);
+        if ((facing.x | facing.y) != 0u && all(lessThan(beside, uvec3(1u << (2u * level)))))
+        {
+            bool claimed;
+            uvec2 beside_key = brickKey(beside, level);
+            uint entry = brickFindOrInsert(beside_key, claimed);
+            if (entry != kNoEntry)
+                insertParents(entry, beside_key, 0u, claimed);
+            else
+                atomicAdd(params.counters.data[0].overflow_count, 1u);
+        }
+    }
+}
+
 void insertLeaf(uint record)
 {
     uint number = layerOf(record);
@@ -102,6 +149,7 @@ void insertLeaf(uint record)
         atomicAdd(params.counters.data[0].overflow_count, 1u);
         return;
     }
+    uint height = carves ? params.level_count - 1u - levelOfKey(key) : 0u;
     if (carves)
     {
         cutNode(entry, uvec2(leaf.mask_lo, leaf.mask_hi));
@@ -114,23 +162,9 @@ void insertLeaf(uint record)
                   bitCount(leaf.mask_lo & ~before_lo) + bitCount(leaf.mask_hi & ~before_hi));
         params.links.data[record] = LayerLink(atomicExchange(params.heads.data[entry], record + 1u), number);
     }
-    uint first_height = carves ? params.level_count - 1u - levelOfKey(key) : 0u;
-    for (uint height = first_height; claimed && height < params.level_count; ++height)
-    {
-        if (!kCarves)
-            listTouched(entry, height);
-        claimed = false;
-        if (height + 1u < params.level_count)
-        {
-            uvec2 child = key;
-            key = parentKey(child);
-            entry = brickFindOrInsert(key, claimed);
-            if (entry != kNoEntry)
-                setCell(entry, child.x & 63u);
-            else
-                atomicAdd(params.counters.data[0].overflow_count, 1u);
-        }
-    }
+    insertParents(entry, key, height, claimed);
+    if (kExposes && carves && height == 0u)
+        insertExposed(key, uvec2(leaf.mask_lo, leaf.mask_hi));
 }
 
 void main()

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: MIT
 // Lists the leaves of a layer's bricks and gives each room for its voxels' sums: kBrickLanes threads a brick.
 // Their order is arbitrary, as sums do not depend on it. In the end it is known whether there was room for everything;
-// else the layer cannot be used, and its fragments are not shaded. Of a layer that carves, a brick's leaves that are full
-// are children of the brick, which is listed as well.
+// else the layer cannot be used, and its fragments are not shaded. Of a layer that carves, a brick's leaves that are
+// inside as a whole are children of the brick, which is listed as well.
 #extension GL_GOOGLE_include_directive : require
 #include "update/update.h"
 
@@ -30,7 +30,7 @@ const uint kGroupBricks = kBricksGroup / kBrickLanes;
 shared uvec2 s_firsts[kGroupBricks]; // leaf and voxel of each brick
 shared uint s_masks_lo[kGroupBricks]; // of its leaves
 shared uint s_masks_hi[kGroupBricks];
-shared uint s_full_lo[kCarves ? kGroupBricks : 1u]; // of those that are full
+shared uint s_full_lo[kCarves ? kGroupBricks : 1u]; // of those that are inside as a whole
 shared uint s_full_hi[kCarves ? kGroupBricks : 1u];
 
 // The mask of a leaf of a brick.
@@ -42,10 +42,17 @@ uvec2 leafMask(uint brick, uint leaf)
     return mask;
 }
 
-// Whether a leaf is listed as a child of its brick. Grids of up to 4^3 have no bricks as nodes.
-bool isCut(uvec2 mask)
+// Whether a leaf is listed as a child of its brick: all is inside, nothing is on the surface.
+bool isInside(uint brick, uint leaf)
 {
-    return kCarves && (mask.x & mask.y) == ~0u && gridDepth() > 2;
+    bool inside = false;
+    if (kCarves && kFillWords != 0u && gridDepth() > 2) // smaller grids have no bricks as nodes
+    {
+        uvec2 surface = MASKS(brick * kBrickLeaves + leaf);
+        uvec2 mask = INSIDE(brick * (kFillWords / 2u) + leaf);
+        inside = (surface.x | surface.y) == 0u && (mask.x & mask.y) == ~0u;
+    }
+    return inside;
 }
 
 // By one thread of a brick.
@@ -72,8 +79,9 @@ void listLeaves(uint brick, uint brick_count)
     for (uint i = 0u; i < kLaneLeaves; ++i)
     {
         uvec2 mask = leafMask(known_brick, leaf + i);
-        full |= exists && isCut(mask) ? 1u << (leaf + i & 31u) : 0u;
-        bool has_voxels = exists && (mask.x | mask.y) != 0u && !isCut(mask);
+        bool inside = exists && isInside(known_brick, leaf + i);
+        full |= inside ? 1u << (leaf + i & 31u) : 0u;
+        bool has_voxels = exists && (mask.x | mask.y) != 0u && !inside;
         leaves |= has_voxels ? 1u << (leaf + i & 31u) : 0u;
         counts += has_voxels ? bitCount(mask.x) + bitCount(mask.y) + (1u << kSecondCount) : 0u;
     }

@@ -21,8 +21,8 @@
 // nodes under construction do (shared/bricks.h).
 //
 // A layer may *carve*: it takes its voxels, and those that are inside of its mesh, from the base tree. Its records are
-// masks of nodes of any level, leaves' voxels or inner nodes' children, which are cut as a whole. Then touched nodes have
-// elements of another array, CarvedNode: nodes that lose all their children are not in the overlay.
+// masks of nodes of any level, leaves' voxels or inner nodes' children, which are cut as a whole. Then touched nodes
+// have elements of another array, CarvedNode: nodes that lose all their children are not in the overlay.
 #ifndef ZVO_SHADERS_UPDATE_UPDATE_H
 #define ZVO_SHADERS_UPDATE_UPDATE_H
 
@@ -80,7 +80,7 @@ struct Layer
     GPU_CONST_PTR(EmissionSums) emission_sums; // [voxel_capacity], by the indices of emission_words
     uint first_record;                         // the records before it: the leaf capacities of the layers before
     uint leaf_capacity;
-    uint kind;   // bits kLayer*
+    uint kind; // bits kLayer*
     uint unused;
 };
 GPU_BUFFER(Layer, 8);
@@ -236,7 +236,8 @@ struct InsertParams // push constants of update/insert: one thread a record
 };
 #define UPDATE_INSERT_CONSTANTS(CONSTANT)                                                                              \
     CONSTANT(0, bool, wide_keys, kWideKeys, false) /* the octree has more than kNarrowLevelsMax levels */              \
-    CONSTANT(1, bool, carves, kCarves, false)      /* some layer does; then update/carve lists nodes */
+    CONSTANT(1, bool, carves, kCarves, false)      /* some layer does; then update/carve lists nodes */                \
+    CONSTANT(2, bool, exposes, kExposes, false)    /* and the base tree is filled */
 GPU_KERNEL(update, insert, Insert, InsertParams, UPDATE_INSERT_CONSTANTS)
 
 struct CarveParams // push constants of update/carve: a thread an entry of the table

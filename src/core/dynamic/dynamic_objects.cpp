@@ -26,14 +26,14 @@ void checkPose(const DynamicMesh& mesh, const Pose& pose)
     checkPose(mesh.deform, pose);
 }
 
-// Throws Error{Usage} for a role that does not exist.
-void checkRole(const DynamicObjectRole& role)
+// Throws Error{Usage} for an info that no object can have.
+void checkInfo(const DynamicObjectInfo& info)
 {
-    if (role.fill == Fill::Robust)
+    if (info.fill == Fill::Robust)
     {
         throw Error(ErrorCode::Usage, "dynamic objects are filled by Fill::Solid or Fill::Parity");
     }
-    if (role.fill != Fill::None && !role.carves)
+    if (info.fill != Fill::None && !info.carves)
     {
         throw Error(ErrorCode::Usage, "only dynamic objects that carve can be filled");
     }
@@ -87,9 +87,9 @@ DynamicObjects::DynamicObjects(vk::Uploader& device, const Grid& grid, const Dyn
 {
 }
 
-DynamicObjectId DynamicObjects::add(std::shared_ptr<const DynamicMesh> mesh, Pose pose, const DynamicObjectRole& role)
+DynamicObjectId DynamicObjects::add(std::shared_ptr<const DynamicMesh> mesh, Pose pose, const DynamicObjectInfo& info)
 {
-    checkRole(role);
+    checkInfo(info);
     if (m_objects.size() == gpu::kLayersMax)
     {
         throw Error(ErrorCode::Usage, fmt::format("an octree takes {} dynamic objects at most", gpu::kLayersMax));
@@ -98,7 +98,7 @@ DynamicObjectId DynamicObjects::add(std::shared_ptr<const DynamicMesh> mesh, Pos
     {
         throw Error(ErrorCode::Usage, "dynamic objects and the static scene need one emission scale");
     }
-    if (m_options.contents.attributes && !role.carves && !mesh->uploaded.has_attributes)
+    if (m_options.contents.attributes && !info.carves && !mesh->uploaded.has_attributes)
     {
         throw Error(ErrorCode::Usage,
                     "the dynamic object was uploaded without attributes, the static octree or DAG has them");
@@ -113,7 +113,7 @@ DynamicObjectId DynamicObjects::add(std::shared_ptr<const DynamicMesh> mesh, Pos
                              ? LayerCapacities{{1, 1, 1, 1, 1}, 1, 1}
                              : LayerCapacities::estimate(mesh->uploaded, m_grid, m_options.coverage);
     object->mesh = std::move(mesh);
-    object->role = role;
+    object->info = info;
     put(*object, std::move(pose));
     m_objects.emplace(m_next_object, object);
     return m_next_object++;
@@ -191,15 +191,15 @@ std::uint64_t DynamicObjects::leafCapacity()
 
 bool DynamicObjects::carve() const
 {
-    return std::ranges::any_of(m_objects, [](const auto& entry) { return entry.second->role.carves; });
+    return std::ranges::any_of(m_objects, [](const auto& entry) { return entry.second->info.carves; });
 }
 
 LayerContents DynamicObjects::contentsOf(const Object& object) const
 {
-    return {.attributes = m_options.contents.attributes && !object.role.carves,
-            .emission = m_options.contents.emission && object.mesh->emits && !object.role.carves,
-            .carves = object.role.carves,
-            .fill = object.role.fill};
+    return {.attributes = m_options.contents.attributes && !object.info.carves,
+            .emission = m_options.contents.emission && object.mesh->emits && !object.info.carves,
+            .carves = object.info.carves,
+            .fill = object.info.fill};
 }
 
 DynamicObjects::Object& DynamicObjects::presentObject(DynamicObjectId id)

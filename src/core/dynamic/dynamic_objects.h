@@ -11,6 +11,7 @@
 #include "vk/device.h"
 #include "vk/frame_list.h"
 #include "vk/uploader.h"
+#include "zvo/dynamic_tree.h"
 #include "zvo/types.h"
 
 #include <cstdint>
@@ -40,16 +41,6 @@ struct DynamicMesh
 std::shared_ptr<const DynamicMesh> uploadDynamicMesh(vk::Uploader& device, Scene scene, bool attributes,
                                                      float emission_scale);
 
-/// Number of a dynamic object. It is never used again during the life of its octree.
-using DynamicObjectId = std::uint32_t;
-
-/// What a dynamic object does to the tree.
-struct DynamicObjectRole
-{
-    bool carves = false;    // it takes its voxels away in place of adding them
-    Fill fill = Fill::None; // if it carves: None takes those of its surface alone; not Robust
-};
-
 /// How dynamic objects are voxelized.
 struct DynamicObjectOptions
 {
@@ -71,7 +62,7 @@ public:
                    vk::DeletionQueue& deletion_queue);
 
     /// As the functions of DynamicOctree.
-    DynamicObjectId add(std::shared_ptr<const DynamicMesh> mesh, Pose pose, const DynamicObjectRole& role);
+    DynamicObjectId add(std::shared_ptr<const DynamicMesh> mesh, Pose pose, const DynamicObjectInfo& info);
     void setPose(DynamicObjectId object, Pose pose);
     void remove(DynamicObjectId object);
 
@@ -117,7 +108,7 @@ private:
     struct Object
     {
         std::shared_ptr<const DynamicMesh> mesh;
-        DynamicObjectRole role;
+        DynamicObjectInfo info;
         DynamicObjectBuffers buffers;
         LayerCapacities capacities;
         std::unique_ptr<LayerBuffers> layer;

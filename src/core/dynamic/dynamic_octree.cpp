@@ -69,9 +69,9 @@ DynamicOctree::DynamicOctree(vk::Uploader& device, DeviceTree&& fixed, const Dyn
                    { m_overlays.settle(graph, deletion_queue); });
 }
 
-DynamicObjectId DynamicOctree::add(std::shared_ptr<const DynamicMesh> mesh, Pose pose, const DynamicObjectRole& role)
+DynamicObjectId DynamicOctree::add(std::shared_ptr<const DynamicMesh> mesh, Pose pose, const DynamicObjectInfo& info)
 {
-    return m_objects.add(std::move(mesh), std::move(pose), role);
+    return m_objects.add(std::move(mesh), std::move(pose), info);
 }
 
 void DynamicOctree::setPose(DynamicObjectId object, Pose pose)

@@ -22,10 +22,8 @@ constexpr std::uint64_t kVoxelsOfLeaf = 24; // of 64: a plane through a leaf set
 
 VoxelForm formOf(Coverage coverage, LayerContents contents)
 {
-    return {.coverage = coverage,
-            .attributes = contents.attributes,
-            .emission = contents.emission,
-            .fill = contents.fill};
+    return {
+        .coverage = coverage, .attributes = contents.attributes, .emission = contents.emission, .fill = contents.fill};
 }
 
 } // namespace
@@ -93,8 +91,9 @@ std::uint64_t LayerBuffers::bytes(const LayerCapacities& capacities, const GpuSc
 
 Grid LayerBuffers::gridFor(const Grid& grid) const
 {
+    constexpr std::uint32_t kDepthMin = 3; // of grids that are filled
     Grid result = grid;
-    result.depth += carves && grid.depth < Grid::kDepthMax ? 1 : 0;
+    result.depth = carves ? std::clamp(grid.depth + 1, kDepthMin, Grid::kDepthMax) : grid.depth;
     return result;
 }
 

@@ -138,22 +138,23 @@ void listTouched(vk::FrameGraph& graph, const UpdateJob& job, UpdateBuffers& buf
     }
     graph.update(buffers.ranges, 0, ranges);
     {
-    vk::Pass pass = graph.addPass(gpu::update::Insert{.wide_keys = hasWideKeys(job.tree.grid), .carves = carves});
-    pass.readWrite(buffers.carved);
-    pass.dispatch(record_count, {.layers = readLayers(pass, job, buffers),
-                                 .bricks = pass.readWrite(buffers.bricks),
-                                 .heads = pass.readWrite(buffers.heads),
-                                 .links = pass.write(buffers.links),
-                                 .items = pass.write(buffers.items),
-                                 .counters = pass.readWrite(buffers.counters),
-                                 .state = pass.readWrite(buffers.state),
-                                 .ranges = pass.readWrite(buffers.ranges),
-                                 .args = pass.write(buffers.level_args),
-                                 .layer_count = static_cast<std::uint32_t>(layers.size()),
-                                 .record_count = record_count,
-                                 .brick_mask = static_cast<std::uint32_t>(buffers.bricks.count() - 1),
-                                 .level_count = state.level_count,
-                                 .max_groups_x = state.max_groups_x});
+        vk::Pass pass = graph.addPass(gpu::update::Insert{
+            .wide_keys = hasWideKeys(job.tree.grid), .carves = carves, .exposes = carves && job.tree.filled});
+        pass.readWrite(buffers.carved);
+        pass.dispatch(record_count, {.layers = readLayers(pass, job, buffers),
+                                     .bricks = pass.readWrite(buffers.bricks),
+                                     .heads = pass.readWrite(buffers.heads),
+                                     .links = pass.write(buffers.links),
+                                     .items = pass.write(buffers.items),
+                                     .counters = pass.readWrite(buffers.counters),
+                                     .state = pass.readWrite(buffers.state),
+                                     .ranges = pass.readWrite(buffers.ranges),
+                                     .args = pass.write(buffers.level_args),
+                                     .layer_count = static_cast<std::uint32_t>(layers.size()),
+                                     .record_count = record_count,
+                                     .brick_mask = static_cast<std::uint32_t>(buffers.bricks.count() - 1),
+                                     .level_count = state.level_count,
+                                     .max_groups_x = state.max_groups_x});
     }
     if (carves)
     {
@@ -248,8 +249,8 @@ void assignBases(vk::FrameGraph& graph, const UpdateJob& job, UpdateBuffers& buf
 template <typename Kernel> void addMergePass(vk::FrameGraph& graph, const UpdateJob& job, UpdateBuffers& buffers)
 {
     const bool emits = job.tree.emission_words.count() != 0;
-    vk::Pass pass = graph.addPass(Kernel{
-        .merge = job.merge, .emits = emits, .ranks = job.tree.overlays.hasRanks(), .carves = carve(job)});
+    vk::Pass pass = graph.addPass(
+        Kernel{.merge = job.merge, .emits = emits, .ranks = job.tree.overlays.hasRanks(), .carves = carve(job)});
     gpu::MergeParams params{};
     pass.read(buffers.carved);
     params.view = pass.read(job.view);
