@@ -100,10 +100,10 @@ TEST_F(ApiDynamic, ObjectsThatCarveLeaveNoTrace)
     DynamicTree tree = dynamicTree(fixedTree(false));
     const auto before = m_host.picture(tree, test::apiCamera());
     const Model model = ball();
+    const Mat4 large = {3, 0, 0, 0, 0, 3, 0, 0, 0, 0, 3, 0, 5, 5, 5, 1};
     DynamicObjectId object = 0;
-    m_host.frame(
-        [&](Recorder& recorder)
-        { object = tree.addObject(recorder, model, test::movedBy(4.5, 5, 5), {.carves = true, .fill = Fill::Solid}); });
+    m_host.frame([&](Recorder& recorder)
+                 { object = tree.addObject(recorder, model, large, {.carves = true, .fill = Fill::Solid}); });
     m_host.update(tree);
     EXPECT_NE(m_host.picture(tree, test::apiCamera()), before);
     EXPECT_EQ(tree.takeUpdates().back().moving_count, 0U);

@@ -141,7 +141,7 @@ TEST(PassCounts, OfAnUpdate)
 
 TEST(PassCounts, OfAnUpdateThatCarves)
 {
-    expectAtMost(countUpdate({.fill = Fill::Solid}, {.carves = true, .fill = Fill::Solid}), 24, 25);
+    expectAtMost(countUpdate({.fill = Fill::Solid}, {.carves = true, .fill = Fill::Solid}), 25, 26);
 }
 
 TEST(PassCounts, OfAPicture)

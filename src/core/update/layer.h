@@ -35,9 +35,9 @@ struct LayerCapacities
 struct LayerContents
 {
     bool attributes = true;
-    bool emission = false;   // only with attributes
-    bool carves = false;     // it takes its voxels from the base tree; without attributes
-    Fill fill = Fill::None;  // the voxels inside of the mesh are its own as well; only if it carves, not Robust
+    bool emission = false;  // only with attributes
+    bool carves = false;    // it takes its voxels from the base tree; without attributes
+    Fill fill = Fill::None; // the voxels inside of the mesh are its own as well; only if it carves, not Robust
 };
 
 /// The voxels of one dynamic object; shaders/update/update.h describes layers.

@@ -231,7 +231,7 @@ const std::vector<WrongFile>& wrongFiles()
          {"objects[0].merge carves by an object that is static; expected dynamic"}},
         {"ObjectWithARuleOfItsOwn",
          objectText(R"("merge": "average")"),
-         {"objects[0].merge is \"average\"; expected carve"}},
+         {"objects[0].merge is \"average\"; expected one of carve"}},
         {"FilledThatDoesNotCarve",
          objectText(R"("fill": "solid")"),
          {"objects[0].fill fills an object that does not carve; expected merge beside it"}},
