@@ -300,6 +300,10 @@ void warnOfMergeRule(const AnimatedScene& animated)
                          "file's merge, {}, has no effect",
                          nameOf(kMergeRules, animated.merge)));
     }
+    if (std::ranges::any_of(animated.objects, &DynamicObject::carves))
+    {
+        talk("warning: everything is voxelized together: objects that carve are left out");
+    }
 }
 
 void checkValidation(const vk::HeadlessDevice& device)

@@ -31,6 +31,16 @@ struct DynamicTreeInfo
     float emission_scale = 0; // common to the static tree and all dynamic objects; 0: nothing emits light
 };
 
+/// What a dynamic object does to the tree.
+struct DynamicObjectInfo
+{
+    /// It takes its voxels away in place of adding them: first, all objects that carve take theirs from the static tree
+    /// and the strokes of brushes, then the others are merged with what is left.
+    bool carves = false;
+    /// Only with carves: what is inside of its mesh goes, too. None takes the voxels of the surface alone. Not Robust.
+    Fill fill = Fill::None;
+};
+
 /// A dab of a brush on the voxels of a grid.
 struct BrushInfo
 {
@@ -78,9 +88,10 @@ public:
     DynamicTree& operator=(DynamicTree&&) noexcept;
 
     /// Adds a dynamic object. Like all changes, it is shown from the next update() on. to_world: finite and affine.
-    /// Throws Error{Usage} for other transforms, for more than 1024 dynamic objects and for another emission scale;
-    /// Error{Memory}.
-    DynamicObjectId addObject(Recorder& recorder, const Model& model, const Mat4& to_world);
+    /// Throws Error{Usage} for other transforms, for more than 1024 dynamic objects, for another emission scale and for
+    /// an info that no object can have; Error{Memory}.
+    DynamicObjectId addObject(Recorder& recorder, const Model& model, const Mat4& to_world,
+                              const DynamicObjectInfo& info = {});
 
     /// Moves a dynamic object. Records nothing; the work is done by update(). Throws Error{Usage} for an object that
     /// does not exist, as removeObject() does, and for transforms as addObject().

@@ -444,6 +444,16 @@ typedef struct ZvoBrushInfo
 #define ZVO_BRUSH_INFO_INIT                                                                                            \
     ZVO_STRUCT_INIT(ZvoBrushInfo, ZVO_BRUSH_SHAPE_SPHERE, ZVO_BRUSH_ACTION_CARVE, {0, 0, 0}, 0, 0, {0, 0, 0})
 
+/// As zvo::DynamicObjectInfo.
+typedef struct ZvoDynamicObjectInfo
+{
+    size_t struct_size;
+    VkBool32 carves;
+    ZvoFill fill;
+} ZvoDynamicObjectInfo;
+
+#define ZVO_DYNAMIC_OBJECT_INFO_INIT ZVO_STRUCT_INIT(ZvoDynamicObjectInfo, VK_FALSE, ZVO_FILL_NONE)
+
 /// As zvo::UpdateStats.
 typedef struct ZvoUpdateStats
 {
@@ -469,6 +479,9 @@ ZVO_C_API ZvoResult zvoDynamicTreeCreate(ZvoRecorder* recorder, ZvoTree* fixed, 
 ZVO_C_API void zvoDynamicTreeDestroy(ZvoDynamicTree* tree);
 ZVO_C_API ZvoResult zvoDynamicTreeAddObject(ZvoDynamicTree* tree, ZvoRecorder* recorder, const ZvoModel* model,
                                             const float to_world[16], ZvoDynamicObjectId* id);
+ZVO_C_API ZvoResult zvoDynamicTreeAddObjectWith(ZvoDynamicTree* tree, ZvoRecorder* recorder, const ZvoModel* model,
+                                                const float to_world[16], const ZvoDynamicObjectInfo* info,
+                                                ZvoDynamicObjectId* id);
 ZVO_C_API ZvoResult zvoDynamicTreeSetTransform(ZvoDynamicTree* tree, ZvoDynamicObjectId id, const float to_world[16]);
 ZVO_C_API ZvoResult zvoDynamicTreeRemoveObject(ZvoDynamicTree* tree, ZvoDynamicObjectId id);
 ZVO_C_API ZvoResult zvoDynamicTreeUpdate(ZvoDynamicTree* tree, ZvoRecorder* recorder, double budget_ms,

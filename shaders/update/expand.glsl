@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The children of touched nodes of an overlay, and the sizes of what follows a level.
-// Needs the constants kWideKeys, kEntriesPerWord, kAttributes and kRanks, and the parameters of update/expand or
+// Needs the constants kWideKeys, kEntriesPerWord, kAttributes, kRanks and kCarves, and the parameters of update/expand or
 // update/top.
 #ifndef ZVO_SHADERS_UPDATE_EXPAND_GLSL
 #define ZVO_SHADERS_UPDATE_EXPAND_GLSL
@@ -53,6 +53,30 @@ void setBase(uint node, uint base)
     params.nodes.data[node].base_hi = base + bitCount(params.nodes.data[node].mask_lo);
 }
 
+// Whether layers cut a child of a touched node, or all of it.
+bool isCut(uint entry, uint cell)
+{
+    bool is_cut = false;
+    if (kCarves)
+    {
+        CarvedNode node = params.state.data[0].carved.data[entry];
+        is_cut = hasCell(uvec2(node.cut_lo, node.cut_hi), cell);
+    }
+    return is_cut;
+}
+
+// What layers make of a touched node with the base tree's mask.
+uvec2 mergedMask(uint entry, BrickEntry brick, uvec2 mask)
+{
+    mask |= uvec2(brick.mask_lo, brick.mask_hi);
+    if (kCarves)
+    {
+        CarvedNode node = params.state.data[0].carved.data[entry];
+        mask = uvec2(node.left_lo, node.left_hi);
+    }
+    return mask;
+}
+
 // Writes the child of a touched node in a cell, if there is one. Where a layer touches it, it is merged with the base
 // tree's; others are copied from there. Returns how many children the overlay has to hold for it. child: its number.
 // dag_leaves: the children are leaves, of a DAG.
@@ -67,7 +91,7 @@ uint expandChild(uint entry, uint cell, bool dag_leaves, out uint child)
     RankedNode base = RankedNode(kNoNode, 0u, 0u);
     if (touched.base != kNoNode)
     {
-        if (hasCell(nodeMask(Node_ConstPtr(uint64_t(params.nodes)), touched.base), cell))
+        if (hasCell(nodeMask(Node_ConstPtr(uint64_t(params.nodes)), touched.base), cell) && !isCut(entry, cell))
             base = baseChild(touched, cell, dag_leaves);
     }
     Node merged = Node(0u, 0u, 0u, 0u);
@@ -81,8 +105,9 @@ uint expandChild(uint entry, uint cell, bool dag_leaves, out uint child)
     {
         BrickEntry child_brick;
         uint child_entry = brickFind(childKey(keyOf(brick), cell), child_brick);
-        merged.mask_lo |= child_brick.mask_lo;
-        merged.mask_hi |= child_brick.mask_hi;
+        uvec2 mask = mergedMask(child_entry, child_brick, uvec2(merged.mask_lo, merged.mask_hi));
+        merged.mask_lo = mask.x;
+        merged.mask_hi = mask.y;
         params.touched.data[child_entry] = TouchedNode(child, base.node);
         count = bitCount(merged.mask_lo) + bitCount(merged.mask_hi);
     }

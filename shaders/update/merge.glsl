@@ -23,6 +23,7 @@ struct MergedLeaf
     Node node;
     Node base;      // its voxels that have attributes, with their indices
     uvec2 occupied; // all of its voxels
+    uvec2 cut;      // voxels that layers take from the base tree
     uint look; // index of its attributes among those of nodes: before they are averaged, what is inside has their colour
     uint head;  // record + 1 of the first layer that has the leaf
     uint count; // of its voxels
@@ -30,7 +31,7 @@ struct MergedLeaf
 
 MergedLeaf mergedLeaf(uint item)
 {
-    MergedLeaf leaf = MergedLeaf(Node(0u, 0u, 0u, 0u), Node(0u, 0u, 0u, 0u), uvec2(0u), 0u, 0u, 0u);
+    MergedLeaf leaf = MergedLeaf(Node(0u, 0u, 0u, 0u), Node(0u, 0u, 0u, 0u), uvec2(0u), uvec2(0u), 0u, 0u, 0u);
     LevelRange range = params.ranges.data[0];
     if (item < range.count)
     {
@@ -47,6 +48,11 @@ MergedLeaf mergedLeaf(uint item)
         leaf.base.base_lo += first_voxel;
         leaf.base.base_hi += first_voxel;
         leaf.head = params.heads.data[entry];
+        if (kCarves)
+        {
+            CarvedNode carved = params.state.data[0].carved.data[entry];
+            leaf.cut = uvec2(carved.cut_lo, carved.cut_hi);
+        }
         leaf.count = bitCount(leaf.node.mask_lo) + bitCount(leaf.node.mask_hi);
     }
     return leaf;
@@ -83,8 +89,9 @@ MergedVoxel mergedVoxel(MergedLeaf leaf, uint n)
     voxel.index = leaf.node.base_lo + n;
     voxel.cell = n < count_lo ? setBit(leaf.node.mask_lo, n) : 32u + setBit(leaf.node.mask_hi, n - count_lo);
     voxel.head = leaf.head;
-    voxel.base = hasCell(leaf.occupied, voxel.cell) ? kInteriorIndex : kNoVoxel;
-    voxel.base = hasChild(leaf.base, voxel.cell) ? childIndex(leaf.base, voxel.cell) : voxel.base;
+    bool is_cut = kCarves && hasCell(leaf.cut, voxel.cell);
+    voxel.base = hasCell(leaf.occupied, voxel.cell) && !is_cut ? kInteriorIndex : kNoVoxel;
+    voxel.base = hasChild(leaf.base, voxel.cell) && !is_cut ? childIndex(leaf.base, voxel.cell) : voxel.base;
     return voxel;
 }
 

@@ -32,8 +32,9 @@ bool mergeRoot(uint level_count)
     {
         uint entry = params.items.data[range.first].entry;
         BrickEntry brick = params.bricks.data[entry];
-        root.mask_lo |= brick.mask_lo;
-        root.mask_hi |= brick.mask_hi;
+        uvec2 mask = mergedMask(entry, brick, uvec2(root.mask_lo, root.mask_hi));
+        root.mask_lo = mask.x;
+        root.mask_hi = mask.y;
         root.base_lo = is_leaf ? params.first_voxel : params.first_node + 1u;
         root.base_hi = root.base_lo + bitCount(root.mask_lo);
         params.touched.data[entry] = TouchedNode(params.first_node, params.base_root);

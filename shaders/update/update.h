@@ -19,6 +19,10 @@
 //
 // A node of the overlay that stands above a leaf of a layer is touched. Touched nodes have entries in a brick table, as
 // nodes under construction do (shared/bricks.h).
+//
+// A layer may *carve*: it takes its voxels, and those that are inside of its mesh, from the base tree. Its records are
+// masks of nodes of any level, leaves' voxels or inner nodes' children, which are cut as a whole. Then touched nodes
+// have elements of another array, CarvedNode: nodes that lose all their children are not in the overlay.
 #ifndef ZVO_SHADERS_UPDATE_UPDATE_H
 #define ZVO_SHADERS_UPDATE_UPDATE_H
 
@@ -68,7 +72,7 @@ struct Layer
 {
     GPU_CONST_PTR(LayerCounters) counters; // [1]
     GPU_CONST_PTR(uvec2) keys;             // [leaf_capacity] of the leaves, in any order (shared/bricks.h)
-    GPU_CONST_PTR(Node) leaves;            // [leaf_capacity] masks, and bases in sums
+    GPU_CONST_PTR(Node) leaves;            // [leaf_capacity] masks, and bases in sums; where it carves, of any nodes
     GPU_CONST_PTR(VoxelSums) sums;         // [voxel_capacity]
     GPU_CONST_PTR(uvec2)
     emission_words;                            // [ceil(voxel_capacity / 32)] bits of voxels that emit, index in
@@ -76,8 +80,26 @@ struct Layer
     GPU_CONST_PTR(EmissionSums) emission_sums; // [voxel_capacity], by the indices of emission_words
     uint first_record;                         // the records before it: the leaf capacities of the layers before
     uint leaf_capacity;
+    uint kind; // bits kLayer*
+    uint unused;
 };
 GPU_BUFFER(Layer, 8);
+
+// Of a layer that carves, bits of Layer::kind. Its keys are those of a grid of twice as many voxels an edge.
+const uint kLayerCarves = 1u;
+const uint kLayerDeeper = 2u;   // that grid has a level of nodes more
+const uint kLayerWideKeys = 4u; // and wide keys
+
+/// What carving makes of a touched node: masks of its children or, of a leaf, of its voxels.
+struct CarvedNode
+{
+    uint cut_lo; // those that are cut as a whole
+    uint cut_hi;
+    uint left_lo; // those that the overlay has
+    uint left_hi;
+    uint listed; // 1: the node is in the overlay
+};
+GPU_BUFFER(CarvedNode, 4);
 
 /// A leaf of a layer in the chain of those with the same key.
 struct LayerLink
@@ -126,6 +148,7 @@ struct OverlayState
 {
     UpdateStatus status;
     GPU_PTR(DispatchArgs) args;          // [kArgsCount]
+    GPU_PTR(CarvedNode) carved;          // [brick_capacity] cleared; kCarves only
     OverlayLevel levels[kNodeLevelsMax]; // from the root's on, as far as they have been sized
     uint arrived[kNodeLevelsMax];        // threads that have expanded a level (lib/arrivals.glsl)
     uint level_count;
@@ -140,6 +163,7 @@ struct LayerLeavesParams // push constants of update/layer_leaves: kBrickLanes t
     GPU_PTR(BrickEntry) bricks;       // get the numbers of the bricks' nodes
     GPU_CONST_PTR(BrickRange) ranges; // [brick_capacity]
     GPU_CONST_PTR(uint) masks;
+    GPU_CONST_PTR(uint) crossings; // as voxelize/fill leaves them
     GPU_PTR(BinCounters) bins;
     GPU_PTR(uvec2) keys;             // [leaf_capacity]
     GPU_PTR(Node) nodes;             // [brick_capacity] of bricks, then [leaf_capacity] of leaves
@@ -153,8 +177,36 @@ struct LayerLeavesParams // push constants of update/layer_leaves: kBrickLanes t
 };
 #define UPDATE_LAYER_LEAVES_CONSTANTS(CONSTANT)                                                                        \
     CONSTANT(0, bool, wide_keys, kWideKeys, false) /* the octree has more than kNarrowLevelsMax levels */              \
-    CONSTANT(1, uint, brick_lanes, kBrickLanes, 2u)
+    CONSTANT(1, uint, brick_lanes, kBrickLanes, 2u)                                                                    \
+    CONSTANT(2, bool, carves, kCarves, false)                                                                          \
+    CONSTANT(3, uint, fill_words, kFillWords, 0u) /* of a range's crossings; 0: nothing is filled */
 GPU_KERNEL(update, layer_leaves, LayerLeaves, LayerLeavesParams, UPDATE_LAYER_LEAVES_CONSTANTS)
+
+struct LayerParentsParams // push constants of update/layer_parents: a thread a brick
+{
+    GPU_PTR(BrickEntry) bricks; // [brick_mask + 1] get the nodes above bricks, with the masks of their children
+    GPU_CONST_PTR(BrickRange) ranges;
+    GPU_PTR(BinCounters) bins;
+    uint window;
+    uint brick_mask;
+};
+#define UPDATE_LAYER_PARENTS_CONSTANTS(CONSTANT) CONSTANT(0, bool, wide_keys, kWideKeys, false)
+GPU_KERNEL(update, layer_parents, LayerParents, LayerParentsParams, UPDATE_LAYER_PARENTS_CONSTANTS)
+
+struct LayerNodesParams // push constants of update/layer_nodes: a thread an entry of the table
+{
+    GPU_PTR(BrickEntry) bricks; // [brick_mask + 1]
+    GPU_CONST_PTR(BinCounters) bins;
+    GPU_PTR(uvec2) keys;             // [leaf_capacity]
+    GPU_PTR(Node) nodes;             // [brick_capacity] of bricks, then [leaf_capacity]
+    GPU_PTR(LayerCounters) counters; // [1] cleared
+    uint window;
+    uint brick_mask;
+    uint brick_capacity;
+    uint leaf_capacity;
+};
+#define UPDATE_LAYER_NODES_CONSTANTS(CONSTANT) CONSTANT(0, bool, wide_keys, kWideKeys, false)
+GPU_KERNEL(update, layer_nodes, LayerNodes, LayerNodesParams, UPDATE_LAYER_NODES_CONSTANTS)
 
 struct EmissionPlacesParams // push constants of update/emission_places
 {
@@ -183,8 +235,29 @@ struct InsertParams // push constants of update/insert: one thread a record
     uint max_groups_x;
 };
 #define UPDATE_INSERT_CONSTANTS(CONSTANT)                                                                              \
-    CONSTANT(0, bool, wide_keys, kWideKeys, false) /* the octree has more than kNarrowLevelsMax levels */
+    CONSTANT(0, bool, wide_keys, kWideKeys, false) /* the octree has more than kNarrowLevelsMax levels */              \
+    CONSTANT(1, bool, carves, kCarves, false)      /* some layer does; then update/carve lists nodes */                \
+    CONSTANT(2, bool, exposes, kExposes, false)    /* and the base tree is filled */
 GPU_KERNEL(update, insert, Insert, InsertParams, UPDATE_INSERT_CONSTANTS)
+
+struct CarveParams // push constants of update/carve: a thread an entry of the table
+{
+    GPU_PTR(BrickEntry) bricks;      // [brick_mask + 1] as update/insert leaves them
+    GPU_CONST_PTR(Node) nodes;       // of the base tree
+    GPU_PTR(WorkItem) items;         // as in InsertParams, as the following ones
+    GPU_PTR(BrickCounters) counters; // [1]
+    GPU_PTR(OverlayState) state;     // [1]
+    GPU_PTR(LevelRange) ranges;
+    GPU_PTR(DispatchArgs) args;
+    uint brick_mask;
+    uint level_count;
+    uint max_groups_x;
+    uint base_root;
+};
+#define UPDATE_CARVE_CONSTANTS(CONSTANT)                                                                               \
+    CONSTANT(0, bool, wide_keys, kWideKeys, false)                                                                     \
+    CONSTANT(1, uint, entries_per_word, kEntriesPerWord, 0u) /* of the lists of a DAG, as base tree; 0: an octree */
+GPU_KERNEL(update, carve, Carve, CarveParams, UPDATE_CARVE_CONSTANTS)
 
 struct TopParams // push constants of update/top: one workgroup
 {
@@ -212,7 +285,8 @@ struct TopParams // push constants of update/top: one workgroup
     CONSTANT(0, bool, wide_keys, kWideKeys, false) /* the octree has more than kNarrowLevelsMax levels */              \
     CONSTANT(1, bool, attributes, kAttributes, false)                                                                  \
     CONSTANT(2, uint, entries_per_word, kEntriesPerWord,                                                               \
-             0u) /* of the lists of a DAG, as base tree; 0: it is an octree */
+             0u)                              /* of the lists of a DAG, as base tree; 0: it is an octree */            \
+    CONSTANT(3, bool, carves, kCarves, false) /* some layer does */
 GPU_KERNEL(update, top, Top, TopParams, UPDATE_TOP_CONSTANTS)
 
 struct ExpandParams // push constants of update/expand: a workgroup for each touched node of the level above
@@ -242,7 +316,8 @@ struct ExpandParams // push constants of update/expand: a workgroup for each tou
     CONSTANT(1, bool, attributes, kAttributes, false)                                                                  \
     CONSTANT(2, uint, entries_per_word, kEntriesPerWord,                                                               \
              0u)                              /* of the lists of a DAG, as base tree; 0: it is an octree */            \
-    CONSTANT(3, bool, leaves, kLeaves, false) /* the children are leaves, of a DAG */
+    CONSTANT(3, bool, leaves, kLeaves, false) /* the children are leaves, of a DAG */                                  \
+    CONSTANT(4, bool, carves, kCarves, false) /* some layer does */
 GPU_KERNEL(update, expand, Expand, ExpandParams, UPDATE_EXPAND_CONSTANTS)
 
 struct OverlayAssignParams // push constants of update/assign
@@ -273,7 +348,8 @@ GPU_BUFFER(MergeView, 8);
 #define MERGE_CONSTANTS(CONSTANT)                                                                                      \
     CONSTANT(0, MergeRule, merge, kMerge, kMergeAverage)                                                               \
     CONSTANT(1, bool, emits, kEmits, false)                                                                            \
-    CONSTANT(2, bool, ranks, kRanks, false) /* the base tree is a DAG */
+    CONSTANT(2, bool, ranks, kRanks, false)   /* the base tree is a DAG */                                             \
+    CONSTANT(3, bool, carves, kCarves, false) /* some layer does */
 
 struct MergeParams // push constants of update/merge and update/merge_emission
 {

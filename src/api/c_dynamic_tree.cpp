@@ -19,6 +19,14 @@ Mat4 matrixOf(const float* values)
     return result;
 }
 
+void addObject(ZvoDynamicTree* tree, ZvoRecorder* recorder, const ZvoModel* model, const float* to_world,
+               const DynamicObjectInfo& info, ZvoDynamicObjectId* id)
+{
+    ZvoDynamicObjectId& result = at(id, "id");
+    Recorder& object = objectOf(recorder, "recorder");
+    result = objectOf(tree, "tree").addObject(object, objectOf(model, "model"), matrixOf(to_world), info);
+}
+
 } // namespace
 
 } // namespace zvo
@@ -42,13 +50,14 @@ ZvoResult zvoDynamicTreeCreate(ZvoRecorder* recorder, ZvoTree* fixed, const ZvoD
 ZvoResult zvoDynamicTreeAddObject(ZvoDynamicTree* tree, ZvoRecorder* recorder, const ZvoModel* model,
                                   const float to_world[16], ZvoDynamicObjectId* id)
 {
-    return guarded(__func__,
-                   [&]
-                   {
-                       ZvoDynamicObjectId& result = at(id, "id");
-                       Recorder& object = objectOf(recorder, "recorder");
-                       result = objectOf(tree, "tree").addObject(object, objectOf(model, "model"), matrixOf(to_world));
-                   });
+    return guarded(__func__, [&] { addObject(tree, recorder, model, to_world, {}, id); });
+}
+
+ZvoResult zvoDynamicTreeAddObjectWith(ZvoDynamicTree* tree, ZvoRecorder* recorder, const ZvoModel* model,
+                                      const float to_world[16], const ZvoDynamicObjectInfo* info,
+                                      ZvoDynamicObjectId* id)
+{
+    return guarded(__func__, [&] { addObject(tree, recorder, model, to_world, read(info, "info"), id); });
 }
 
 ZvoResult zvoDynamicTreeSetTransform(ZvoDynamicTree* tree, ZvoDynamicObjectId id, const float to_world[16])

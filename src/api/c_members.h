@@ -93,6 +93,7 @@ ZVO_C_STRUCT(ZvoDynamicTreeInfo, DynamicTreeInfo, ZVO_DYNAMIC_TREE_INFO_INIT,
              (it.coverage, it.merge, it.frames_in_flight, it.emission_scale, it.history_entries, it.history_bytes,
               it.strokes, it.edit_bytes),
              ());
+ZVO_C_STRUCT(ZvoDynamicObjectInfo, DynamicObjectInfo, ZVO_DYNAMIC_OBJECT_INFO_INIT, (it.carves, it.fill), ());
 ZVO_C_STRUCT(ZvoBrushInfo, BrushInfo, ZVO_BRUSH_INFO_INIT,
              (it.shape, it.action, it.center, it.radius, it.color, it.emission), ());
 ZVO_C_STRUCT(ZvoUpdateStats, UpdateStats, ZVO_UPDATE_STATS_INIT,

@@ -152,6 +152,12 @@ const TreeAlgebraInfo& checked(const TreeAlgebraInfo& info)
     return info;
 }
 
+const DynamicObjectInfo& checked(const DynamicObjectInfo& info)
+{
+    checkedEnum(info.fill, Fill::Robust, "DynamicObjectInfo::fill");
+    return info;
+}
+
 const DynamicTreeInfo& checked(const DynamicTreeInfo& info)
 {
     checkedEnum(info.coverage, Coverage::Thin, "DynamicTreeInfo::coverage");

@@ -46,6 +46,7 @@ void requireAtMost(std::uint64_t count, std::uint64_t most, const char* name);
 
 const TreeBuildInfo& checked(const TreeBuildInfo& info);
 const TreeAlgebraInfo& checked(const TreeAlgebraInfo& info);
+const DynamicObjectInfo& checked(const DynamicObjectInfo& info);
 const DynamicTreeInfo& checked(const DynamicTreeInfo& info);
 const BrushInfo& checked(const BrushInfo& info);
 const TraceInfo& checked(const TraceInfo& info);

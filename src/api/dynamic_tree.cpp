@@ -126,16 +126,18 @@ DynamicTree::~DynamicTree() = default;
 DynamicTree::DynamicTree(DynamicTree&&) noexcept = default;
 DynamicTree& DynamicTree::operator=(DynamicTree&&) noexcept = default;
 
-DynamicObjectId DynamicTree::addObject(Recorder& recorder, const Model& model, const Mat4& to_world)
+DynamicObjectId DynamicTree::addObject(Recorder& recorder, const Model& model, const Mat4& to_world,
+                                       const DynamicObjectInfo& info)
 {
     Impl& impl = usable(*this);
     const Model::Impl& model_impl = usable(model);
     requireSame(impl.context, model_impl.context);
+    checked(info);
     const auto& mesh = model_impl.mesh;
     Pose pose = poseOf(*mesh, to_world); // checks to_world before anything is recorded
     impl.enter(recorder.impl());
     const DynamicObjectId object =
-        recording(recorder, [&](Recorder::Impl&) { return impl.octree->add(mesh, std::move(pose)); });
+        recording(recorder, [&](Recorder::Impl&) { return impl.octree->add(mesh, std::move(pose), info); });
     impl.new_objects.push_back({recorder.impl().frame, object});
     return object;
 }

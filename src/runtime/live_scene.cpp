@@ -106,7 +106,7 @@ LiveScene::LiveScene(vk::HeadlessDevice& device, AnimatedScene animated, const G
             mesh = uploadDynamicMesh(device, *object.scene, options.attributes, emission_scale);
             std::ranges::for_each(mesh->uploaded.warnings, listener.warn);
         }
-        m_objects.push_back(m_dynamic->add(mesh, poseAt(object, 0.0)));
+        m_objects.push_back(m_dynamic->add(mesh, poseAt(object, 0.0), {object.carves, object.fill}));
     }
 }
 

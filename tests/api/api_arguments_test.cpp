@@ -238,6 +238,15 @@ TEST_F(ApiArguments, ObjectsAndInstancesStandByAffineTransforms)
         info.instances = instances;
         expectUsage([&] { m_host.upload(info); }, "the transform of instance 0");
     }
+    m_host.frame(
+        [&](Recorder& recorder)
+        {
+            const auto add = [&](const DynamicObjectInfo& info)
+            { expectUsage([&] { tree.addObject(recorder, model, kIdentity, info); }, "fill"); };
+            add({.fill = Fill::Solid});
+            add({.carves = true, .fill = Fill::Robust});
+            add({.carves = true, .fill = numbered<Fill>(7)});
+        });
     m_host.frame([&](Recorder& recorder) { tree.update(recorder); });
     EXPECT_EQ(m_host.picture(tree, test::apiCamera()).size(), std::size_t{m_host.kWidth} * m_host.kHeight);
 

@@ -94,6 +94,24 @@ TEST_F(ApiDynamic, EqualsARebuildAndUndoEqualsBefore)
     }
 }
 
+// A ball that carves goes by. The voxels that it takes come back.
+TEST_F(ApiDynamic, ObjectsThatCarveLeaveNoTrace)
+{
+    DynamicTree tree = dynamicTree(fixedTree(false));
+    const auto before = m_host.picture(tree, test::apiCamera());
+    const Model model = ball();
+    const Mat4 large = {3, 0, 0, 0, 0, 3, 0, 0, 0, 0, 3, 0, 5, 5, 5, 1};
+    DynamicObjectId object = 0;
+    m_host.frame([&](Recorder& recorder)
+                 { object = tree.addObject(recorder, model, large, {.carves = true, .fill = Fill::Solid}); });
+    m_host.update(tree);
+    EXPECT_NE(m_host.picture(tree, test::apiCamera()), before);
+    EXPECT_EQ(tree.takeUpdates().back().moving_count, 0U);
+    tree.setTransform(object, test::movedBy(4.5, 50, 5));
+    m_host.update(tree);
+    EXPECT_EQ(m_host.picture(tree, test::apiCamera()), before);
+}
+
 TEST_F(ApiDynamic, BrushesChangeWhatStandsAndAreUndone)
 {
     DynamicTree tree = dynamicTree(fixedTree(false));

@@ -24,10 +24,11 @@ template <typename... Structs> struct List
 };
 
 // Structs that zvo reads.
-using Inputs = List<ZvoGrid, ZvoOptionalFeatures, ZvoContextInfo, ZvoTextureInfo, ZvoMaterialInfo, ZvoMeshInfo,
-                    ZvoInstanceInfo, ZvoModelInfo, ZvoTreeBuildInfo, ZvoTreeAlgebraInfo, ZvoDynamicTreeInfo,
-                    ZvoBrushInfo, ZvoSunInfo, ZvoEnvironmentMapInfo, ZvoCameraInfo, ZvoTraceInfo, ZvoPathInfo,
-                    ZvoImageTarget, ZvoDepthTarget, ZvoRadianceCacheInfo, ZvoCachedFrameInfo, ZvoCachedPictureInfo>;
+using Inputs =
+    List<ZvoGrid, ZvoOptionalFeatures, ZvoContextInfo, ZvoTextureInfo, ZvoMaterialInfo, ZvoMeshInfo, ZvoInstanceInfo,
+         ZvoModelInfo, ZvoTreeBuildInfo, ZvoTreeAlgebraInfo, ZvoDynamicTreeInfo, ZvoDynamicObjectInfo, ZvoBrushInfo,
+         ZvoSunInfo, ZvoEnvironmentMapInfo, ZvoCameraInfo, ZvoTraceInfo, ZvoPathInfo, ZvoImageTarget, ZvoDepthTarget,
+         ZvoRadianceCacheInfo, ZvoCachedFrameInfo, ZvoCachedPictureInfo>;
 
 // Structs that zvo fills, but those with texts.
 using Outputs =

@@ -226,6 +226,7 @@ TEST(CStructs, PointersThatAreNullAreRefused)
             REFUSES_NULLS(zvoTreeJobRecord);
             REFUSES_NULLS(zvoDynamicTreeCreate);
             REFUSES_NULLS(zvoDynamicTreeAddObject);
+            REFUSES_NULLS(zvoDynamicTreeAddObjectWith);
             REFUSES_NULLS(zvoDynamicTreeUpdate);
             REFUSES_NULLS(zvoDynamicTreeUndo);
             REFUSES_NULLS(zvoDynamicTreeRedo);

@@ -57,12 +57,13 @@ protected:
     }
 };
 
-using Structs = testing::Types<ZvoOptionalFeatures, ZvoDeviceInfo, ZvoContextInfo, ZvoMemoryUse, ZvoPassTime,
-                               ZvoTextureInfo, ZvoMaterialInfo, ZvoMeshInfo, ZvoInstanceInfo, ZvoModelInfo,
-                               ZvoModelStats, ZvoTreeInfo, ZvoTreeBuildInfo, ZvoTreeAlgebraInfo, ZvoDroppedTriangles,
-                               ZvoDynamicTreeInfo, ZvoBrushInfo, ZvoUpdateStats, ZvoSunInfo, ZvoEnvironmentMapInfo,
-                               ZvoCameraInfo, ZvoTraceInfo, ZvoPathInfo, ZvoImageTarget, ZvoDepthTarget,
-                               ZvoRadianceCacheInfo, ZvoCachedFrameInfo, ZvoRadianceCacheStats, ZvoCachedPictureInfo>;
+using Structs =
+    testing::Types<ZvoOptionalFeatures, ZvoDeviceInfo, ZvoContextInfo, ZvoMemoryUse, ZvoPassTime, ZvoTextureInfo,
+                   ZvoMaterialInfo, ZvoMeshInfo, ZvoInstanceInfo, ZvoModelInfo, ZvoModelStats, ZvoTreeInfo,
+                   ZvoTreeBuildInfo, ZvoTreeAlgebraInfo, ZvoDroppedTriangles, ZvoDynamicTreeInfo, ZvoDynamicObjectInfo,
+                   ZvoBrushInfo, ZvoUpdateStats, ZvoSunInfo, ZvoEnvironmentMapInfo, ZvoCameraInfo, ZvoTraceInfo,
+                   ZvoPathInfo, ZvoImageTarget, ZvoDepthTarget, ZvoRadianceCacheInfo, ZvoCachedFrameInfo,
+                   ZvoRadianceCacheStats, ZvoCachedPictureInfo>;
 TYPED_TEST_SUITE(CStructSize, Structs);
 
 TYPED_TEST(CStructSize, MembersThatAnOlderHostDoesNotKnowAreTheDefaults)

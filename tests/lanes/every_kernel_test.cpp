@@ -171,6 +171,28 @@ void mergeObjects(const Scene& scene, const Grid& grid, Coverage coverage, bool 
     EXPECT_EQ(test::difference(test::cellsOf(device(), octree.tree()), before), "");
 }
 
+// Carves the scene by itself, filled: nothing is left.
+void carveObjects(const Scene& scene, const Grid& grid)
+{
+    DynamicOctree octree(device(),
+                         buildOctree(device(), uploadScene(device(), scene, false), grid, {.attributes = false}).octree,
+                         {.attributes = false});
+    EXPECT_GT(voxelCodesOf(test::cellsOf(device(), octree.tree()), grid).size(), 0U);
+    Pose pose;
+    for (const Instance& instance : scene.instances)
+    {
+        pose.transforms.push_back(instance.transform);
+    }
+    octree.add(uploadDynamicMesh(device(), scene, false, 0.0F), pose, {.carves = true, .fill = Fill::Solid});
+    do
+    {
+        const std::uint64_t frame = octree.beginFrame();
+        run([&](vk::FrameGraph& graph) { octree.update(graph); });
+        octree.frameDone(frame);
+    } while (octree.needsUpdate());
+    EXPECT_EQ(voxelCodesOf(test::cellsOf(device(), octree.tree()), grid).size(), 0U);
+}
+
 // Compresses the octree to a DAG, and that DAG again, in which nothing more can be shared.
 void compressOctree(DeviceTree octree, const CompressOptions& options)
 {
@@ -328,6 +350,7 @@ TEST(EveryKernel, RunsOnASmallScene)
         {
             addInAllForms(plain, grid, c.coverage);
             mergeObjects(scene, grid, c.coverage, false);
+            carveObjects(plain, grid);
             tracePictures(built.octree);
             traceForHosts(built.octree);
             tracePaths(built.octree);

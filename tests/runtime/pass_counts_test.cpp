@@ -113,13 +113,14 @@ TEST(PassCounts, OfABuildAndACompression)
     expectAtMost(runAll(dag), 30, 40);
 }
 
-TEST(PassCounts, OfAnUpdate)
+// The passes of an update of a ball's tree, in which a smaller ball moves.
+PassCounts countUpdate(const BuildOptions& build, const DynamicObjectInfo& info)
 {
     const GpuScene scene = uploadScene(wholeDevice(), ball(), true);
-    DynamicOctree octree(wholeDevice(), buildOctree(wholeDevice(), scene, kGrid, {.keep_sums = true}).octree, {});
+    DynamicOctree octree(wholeDevice(), buildOctree(wholeDevice(), scene, kGrid, build).octree, {});
     const Scene mover = test::sphereScene(glm::vec3(300.0F), 40.0F, 16);
     const std::shared_ptr<const DynamicMesh> mesh = uploadDynamicMesh(wholeDevice(), mover, true, 0.0F);
-    const DynamicObjectId object = octree.add(mesh, poseAt(0.0F));
+    const DynamicObjectId object = octree.add(mesh, poseAt(0.0F), info);
     PassCounts counts;
     for (int frame = 0; frame < 8; ++frame) // the first ones find out how much room is needed
     {
@@ -130,7 +131,17 @@ TEST(PassCounts, OfAnUpdate)
         octree.frameDone(number);
     }
     EXPECT_FALSE(octree.needsUpdate());
-    expectAtMost(counts, 21, 22);
+    return counts;
+}
+
+TEST(PassCounts, OfAnUpdate)
+{
+    expectAtMost(countUpdate({.keep_sums = true}, {}), 21, 22);
+}
+
+TEST(PassCounts, OfAnUpdateThatCarves)
+{
+    expectAtMost(countUpdate({.fill = Fill::Solid}, {.carves = true, .fill = Fill::Solid}), 25, 26);
 }
 
 TEST(PassCounts, OfAPicture)

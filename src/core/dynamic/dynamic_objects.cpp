@@ -26,6 +26,19 @@ void checkPose(const DynamicMesh& mesh, const Pose& pose)
     checkPose(mesh.deform, pose);
 }
 
+// Throws Error{Usage} for an info that no object can have.
+void checkInfo(const DynamicObjectInfo& info)
+{
+    if (info.fill == Fill::Robust)
+    {
+        throw Error(ErrorCode::Usage, "dynamic objects are filled by Fill::Solid or Fill::Parity");
+    }
+    if (info.fill != Fill::None && !info.carves)
+    {
+        throw Error(ErrorCode::Usage, "only dynamic objects that carve can be filled");
+    }
+}
+
 template <typename T> bool isSame(const std::vector<T>& a, const std::vector<T>& b)
 {
     return a.size() == b.size() && (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0);
@@ -74,8 +87,9 @@ DynamicObjects::DynamicObjects(vk::Uploader& device, const Grid& grid, const Dyn
 {
 }
 
-DynamicObjectId DynamicObjects::add(std::shared_ptr<const DynamicMesh> mesh, Pose pose)
+DynamicObjectId DynamicObjects::add(std::shared_ptr<const DynamicMesh> mesh, Pose pose, const DynamicObjectInfo& info)
 {
+    checkInfo(info);
     if (m_objects.size() == gpu::kLayersMax)
     {
         throw Error(ErrorCode::Usage, fmt::format("an octree takes {} dynamic objects at most", gpu::kLayersMax));
@@ -84,7 +98,7 @@ DynamicObjectId DynamicObjects::add(std::shared_ptr<const DynamicMesh> mesh, Pos
     {
         throw Error(ErrorCode::Usage, "dynamic objects and the static scene need one emission scale");
     }
-    if (m_options.contents.attributes && !mesh->uploaded.has_attributes)
+    if (m_options.contents.attributes && !info.carves && !mesh->uploaded.has_attributes)
     {
         throw Error(ErrorCode::Usage,
                     "the dynamic object was uploaded without attributes, the static octree or DAG has them");
@@ -99,6 +113,7 @@ DynamicObjectId DynamicObjects::add(std::shared_ptr<const DynamicMesh> mesh, Pos
                              ? LayerCapacities{{1, 1, 1, 1, 1}, 1, 1}
                              : LayerCapacities::estimate(mesh->uploaded, m_grid, m_options.coverage);
     object->mesh = std::move(mesh);
+    object->info = info;
     put(*object, std::move(pose));
     m_objects.emplace(m_next_object, object);
     return m_next_object++;
@@ -174,6 +189,19 @@ std::uint64_t DynamicObjects::leafCapacity()
     return leaves;
 }
 
+bool DynamicObjects::carve() const
+{
+    return std::ranges::any_of(m_objects, [](const auto& entry) { return entry.second->info.carves; });
+}
+
+LayerContents DynamicObjects::contentsOf(const Object& object) const
+{
+    return {.attributes = m_options.contents.attributes && !object.info.carves,
+            .emission = m_options.contents.emission && object.mesh->emits && !object.info.carves,
+            .carves = object.info.carves,
+            .fill = object.info.fill};
+}
+
 DynamicObjects::Object& DynamicObjects::presentObject(DynamicObjectId id)
 {
     const auto found = m_objects.find(id);
@@ -215,8 +243,7 @@ void DynamicObjects::makeLayers()
         if (object->voxelized != object->version && object->layer == nullptr)
         {
             const GpuScene& scene = object->mesh->uploaded;
-            const LayerContents contents = {m_options.contents.attributes,
-                                            m_options.contents.emission && object->mesh->emits};
+            const LayerContents contents = contentsOf(*object);
             m_device.device().memory().require(
                 LayerBuffers::bytes(object->capacities, scene, m_options.coverage, contents),
                 "the voxels of a dynamic object");

@@ -11,6 +11,7 @@
 #include "vk/device.h"
 #include "vk/frame_list.h"
 #include "vk/uploader.h"
+#include "zvo/dynamic_tree.h"
 #include "zvo/types.h"
 
 #include <cstdint>
@@ -40,9 +41,6 @@ struct DynamicMesh
 std::shared_ptr<const DynamicMesh> uploadDynamicMesh(vk::Uploader& device, Scene scene, bool attributes,
                                                      float emission_scale);
 
-/// Number of a dynamic object. It is never used again during the life of its octree.
-using DynamicObjectId = std::uint32_t;
-
 /// How dynamic objects are voxelized.
 struct DynamicObjectOptions
 {
@@ -64,7 +62,7 @@ public:
                    vk::DeletionQueue& deletion_queue);
 
     /// As the functions of DynamicOctree.
-    DynamicObjectId add(std::shared_ptr<const DynamicMesh> mesh, Pose pose);
+    DynamicObjectId add(std::shared_ptr<const DynamicMesh> mesh, Pose pose, const DynamicObjectInfo& info);
     void setPose(DynamicObjectId object, Pose pose);
     void remove(DynamicObjectId object);
 
@@ -78,6 +76,7 @@ public:
     [[nodiscard]] std::vector<LayerState> states() const;
     [[nodiscard]] std::vector<const LayerBuffers*> layers();
     [[nodiscard]] std::uint64_t leafCapacity(); // of all layers
+    [[nodiscard]] bool carve() const;           // any of them
 
     /// Makes layers for the dynamic objects that have changed and have none. Throws Error{Memory} when the device's
     /// budget does not suffice or when no layer can be large enough, and Error{Usage} when more updates are under way
@@ -109,6 +108,7 @@ private:
     struct Object
     {
         std::shared_ptr<const DynamicMesh> mesh;
+        DynamicObjectInfo info;
         DynamicObjectBuffers buffers;
         LayerCapacities capacities;
         std::unique_ptr<LayerBuffers> layer;
@@ -134,6 +134,7 @@ private:
 
     void put(Object& object, Pose&& pose);
     [[nodiscard]] Object& presentObject(DynamicObjectId id);
+    [[nodiscard]] LayerContents contentsOf(const Object& object) const;
     void dropLayer(Object& object);
     bool learn(const PendingLayer& pending);
 

@@ -73,9 +73,9 @@ DynamicOctree::DynamicOctree(vk::Uploader& device, DeviceTree&& fixed, const Dyn
                    { m_overlays.settle(graph, deletion_queue); });
 }
 
-DynamicObjectId DynamicOctree::add(std::shared_ptr<const DynamicMesh> mesh, Pose pose)
+DynamicObjectId DynamicOctree::add(std::shared_ptr<const DynamicMesh> mesh, Pose pose, const DynamicObjectInfo& info)
 {
-    return m_objects.add(std::move(mesh), std::move(pose));
+    return m_objects.add(std::move(mesh), std::move(pose), info);
 }
 
 void DynamicOctree::setPose(DynamicObjectId object, Pose pose)
@@ -235,7 +235,7 @@ bool DynamicOctree::beginJob(vk::FrameGraph& graph)
 {
     showOwedRoot(graph);
     m_objects.makeLayers();
-    m_sizes.begin(m_objects.leafCapacity());
+    m_sizes.begin(m_objects.leafCapacity(), m_objects.carve());
     prepareBuffers();
     const FragmentSums& sums = m_overlays.tree().sums;
     const gpu::MergeView view = {{m_tables.view.address()},

@@ -80,10 +80,11 @@ public:
     DynamicOctree& operator=(const DynamicOctree&) = delete;
 
     /// Adds a dynamic object in a pose of its mesh's scene. Its buffers are filled through the constructor's device,
-    /// whose uploads take effect as vk/uploader.h says. Like all changes, it is shown from the next update() on. Throws
-    /// Error{Usage} for more than kLayersMax dynamic objects, a mesh with another emission scale or a pose that does
-    /// not fit the mesh, and Error{Memory}.
-    DynamicObjectId add(std::shared_ptr<const DynamicMesh> mesh, Pose pose);
+    /// whose uploads take effect as vk/uploader.h says. Like all changes, it is shown from the next update() on. Those
+    /// that carve take voxels from the edited tree; then the others are merged with what is left. Throws Error{Usage}
+    /// for more than kLayersMax dynamic objects, a mesh with another emission scale, a pose that does not fit the mesh
+    /// or an info that no object can have, and Error{Memory}.
+    DynamicObjectId add(std::shared_ptr<const DynamicMesh> mesh, Pose pose, const DynamicObjectInfo& info = {});
 
     /// Puts the dynamic object into another pose. A pose that is equal to the last one, bit for bit, changes nothing.
     /// Triangles with vertices that are not finite are left out and counted. Throws as add().

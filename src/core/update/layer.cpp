@@ -22,7 +22,8 @@ constexpr std::uint64_t kVoxelsOfLeaf = 24; // of 64: a plane through a leaf set
 
 VoxelForm formOf(Coverage coverage, LayerContents contents)
 {
-    return {.coverage = coverage, .attributes = contents.attributes, .emission = contents.emission};
+    return {
+        .coverage = coverage, .attributes = contents.attributes, .emission = contents.emission, .fill = contents.fill};
 }
 
 } // namespace
@@ -51,6 +52,7 @@ LayerCapacities LayerCapacities::grownFor(const gpu::LayerCounters& layer) const
     grown.voxelize.setups = enough(voxelize.setups, needed.setups);
     grown.voxelize.items = enough(voxelize.items, needed.items);
     grown.voxelize.large = enough(voxelize.large, needed.large);
+    grown.voxelize.fill_planes = needed.fill_planes;
     grown.leaves = enough(leaves, layer.leaf_count);
     grown.voxels = enough(voxels, layer.voxel_count);
     return grown;
@@ -58,7 +60,7 @@ LayerCapacities LayerCapacities::grownFor(const gpu::LayerCounters& layer) const
 
 LayerBuffers::LayerBuffers(vk::Device& device, const LayerCapacities& capacities, const GpuScene& scene,
                            Coverage coverage, LayerContents contents)
-    : voxelize(device, capacities.voxelize, scene, formOf(coverage, contents)),
+    : carves(contents.carves), voxelize(device, capacities.voxelize, scene, formOf(coverage, contents)),
       counters(device, "update/layer_counters", 1), keys(device, "update/layer_keys", capacities.leaves),
       nodes(device, "update/layer_nodes", capacities.voxelize.bricks + capacities.leaves)
 {
@@ -87,6 +89,21 @@ std::uint64_t LayerBuffers::bytes(const LayerCapacities& capacities, const GpuSc
     return bytes;
 }
 
+Grid LayerBuffers::gridFor(const Grid& grid) const
+{
+    constexpr std::uint32_t kDepthMin = 3; // of grids that are filled
+    Grid result = grid;
+    result.depth = carves ? std::clamp(grid.depth + 1, kDepthMin, Grid::kDepthMax) : grid.depth;
+    return result;
+}
+
+std::uint32_t LayerBuffers::kind(const Grid& grid) const
+{
+    const Grid own = gridFor(grid);
+    return (carves ? gpu::kLayerCarves : 0) | (own.nodeLevels() != grid.nodeLevels() ? gpu::kLayerDeeper : 0) |
+           (hasWideKeys(own) ? gpu::kLayerWideKeys : 0);
+}
+
 namespace
 {
 
@@ -103,24 +120,62 @@ void clearSums(vk::FrameGraph& graph, LayerBuffers& layer)
     }
 }
 
+// Lists the nodes above bricks that are inside as a whole.
+void listInside(vk::FrameGraph& graph, const LayerJob& job)
+{
+    LayerBuffers& layer = job.layer;
+    VoxelizeBuffers& voxelize = layer.voxelize;
+    const Grid grid = layer.gridFor(job.grid);
+    const auto brick_mask = static_cast<std::uint32_t>(voxelize.table.count() - 1);
+    {
+        vk::Pass pass = graph.addPass(gpu::update::LayerParents{.wide_keys = hasWideKeys(grid)});
+        pass.dispatchIndirect(voxelize.counters, &gpu::BinCounters::collect,
+                              {.bricks = pass.readWrite(voxelize.table),
+                               .ranges = pass.read(voxelize.ranges),
+                               .bins = pass.readWrite(voxelize.counters),
+                               .window = windowOf(grid),
+                               .brick_mask = brick_mask},
+                              divideUp(voxelize.ranges.count(), gpu::kBricksGroup));
+    }
+    vk::Pass pass = graph.addPass(gpu::update::LayerNodes{.wide_keys = hasWideKeys(grid)});
+    pass.dispatch(voxelize.table.count(), {.bricks = pass.readWrite(voxelize.table),
+                                           .bins = pass.read(voxelize.counters),
+                                           .keys = pass.write(layer.keys),
+                                           .nodes = pass.write(layer.nodes),
+                                           .counters = pass.readWrite(layer.counters),
+                                           .window = windowOf(grid),
+                                           .brick_mask = brick_mask,
+                                           .brick_capacity = static_cast<std::uint32_t>(layer.firstLeaf()),
+                                           .leaf_capacity = static_cast<std::uint32_t>(layer.leafCapacity())});
+}
+
 // Lists the leaves, and checks whether there was room for everything.
 void listLeaves(vk::FrameGraph& graph, const LayerJob& job)
 {
     LayerBuffers& layer = job.layer;
     VoxelizeBuffers& voxelize = layer.voxelize;
     graph.fill(layer.counters, 0);
+    if (voxelize.fill_planes != 0)
+    {
+        listInside(graph, job);
+    }
+    const Grid grid = layer.gridFor(job.grid);
     const std::uint32_t lanes = tunedValue(graph.device(), Tunable::BrickLanes);
-    vk::Pass pass = graph.addPass(gpu::update::LayerLeaves{.wide_keys = hasWideKeys(job.grid), .brick_lanes = lanes});
+    vk::Pass pass = graph.addPass(gpu::update::LayerLeaves{.wide_keys = hasWideKeys(grid),
+                                                           .brick_lanes = lanes,
+                                                           .carves = layer.carves,
+                                                           .fill_words = voxelize.fillWords()});
     gpu::LayerLeavesParams params{};
     params.bricks = pass.readWrite(voxelize.table);
     params.ranges = pass.read(voxelize.ranges);
     params.masks = pass.read(voxelize.masks);
+    params.crossings = pass.read(voxelize.crossings);
     params.bins = pass.readWrite(voxelize.counters);
     params.keys = pass.write(layer.keys);
     params.nodes = pass.write(layer.nodes);
     params.counters = pass.readWrite(layer.counters);
     params.reports = pass.readWrite(job.reports);
-    params.window = windowOf(job.grid);
+    params.window = windowOf(grid);
     params.brick_capacity = static_cast<std::uint32_t>(layer.firstLeaf());
     params.leaf_capacity = static_cast<std::uint32_t>(layer.leafCapacity());
     // Where no sums are kept, nothing limits their number.
@@ -132,7 +187,7 @@ void listLeaves(vk::FrameGraph& graph, const LayerJob& job)
 
 VoxelizeJob voxelizeJob(const LayerJob& job)
 {
-    return {job.scene, job.grid, job.layer.voxelize};
+    return {job.scene, job.layer.gridFor(job.grid), job.layer.voxelize};
 }
 
 // Adds the stages that put the triangles into bricks, for each material class in pieces.
@@ -181,6 +236,10 @@ void addLayerStages(const LayerJob& job, UpdateStages& stages)
         [job](vk::FrameGraph& graph) { clearVoxels(graph, job.layer.voxelize); });
     addBins(job, stages);
     add("cover voxels", voxelize.items.count(), [job](vk::FrameGraph& graph) { coverBricks(graph, voxelizeJob(job)); });
+    if (voxelize.fill_planes != 0)
+    {
+        add("fill", voxelize.ranges.count(), [job](vk::FrameGraph& graph) { fillBricks(graph, voxelizeJob(job)); });
+    }
     add("list leaves", voxelize.ranges.count(), [job](vk::FrameGraph& graph) { listLeaves(graph, job); });
     if (job.layer.sums.count() == 0)
     {

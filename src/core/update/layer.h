@@ -31,11 +31,13 @@ struct LayerCapacities
     bool operator==(const LayerCapacities&) const = default;
 };
 
-/// What a layer holds besides the positions of its voxels.
+/// What a layer is: what it holds besides the positions of its voxels, and what it does with them.
 struct LayerContents
 {
     bool attributes = true;
-    bool emission = false; // only with attributes
+    bool emission = false;  // only with attributes
+    bool carves = false;    // it takes its voxels from the base tree; without attributes
+    Fill fill = Fill::None; // the voxels inside of the mesh are its own as well; only if it carves, not Robust
 };
 
 /// The voxels of one dynamic object; shaders/update/update.h describes layers.
@@ -54,6 +56,14 @@ struct LayerBuffers
     /// [capacities.leaves]
     [[nodiscard]] std::uint64_t leafCapacity() const { return keys.count(); }
 
+    /// The grid in which the mesh is voxelized, for a tree with this grid. Triangles above count for what is inside: a
+    /// layer that carves sees those up to a grid's height above the grid, except at Grid::kDepthMax.
+    [[nodiscard]] Grid gridFor(const Grid& grid) const;
+
+    /// gpu::Layer::kind for a tree with this grid.
+    [[nodiscard]] std::uint32_t kind(const Grid& grid) const;
+
+    bool carves;
     VoxelizeBuffers voxelize;
     vk::BufferOf<gpu::LayerCounters> counters;     // [1]
     vk::BufferOf<gpu::uvec2> keys;                 // [capacities.leaves]

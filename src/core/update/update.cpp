@@ -64,6 +64,32 @@ template <typename Params> void readRanks(vk::AnyPass& pass, DeviceTree& tree, P
     }
 }
 
+bool carve(const UpdateJob& job)
+{
+    return std::ranges::any_of(job.layers, [](const LayerBuffers* layer) { return layer->carves; });
+}
+
+// Finds what is left of touched nodes where layers carve.
+void carveNodes(vk::FrameGraph& graph, const UpdateJob& job, UpdateBuffers& buffers)
+{
+    vk::Pass pass = graph.addPass(
+        gpu::update::Carve{.wide_keys = hasWideKeys(job.tree.grid), .entries_per_word = job.tree.entriesPerWord()});
+    gpu::CarveParams params{};
+    params.bricks = pass.readWrite(buffers.bricks);
+    params.nodes = pass.read(job.tree.nodes);
+    params.items = pass.write(buffers.items);
+    params.counters = pass.readWrite(buffers.counters);
+    params.state = pass.readWrite(buffers.state);
+    pass.readWrite(buffers.carved);
+    params.ranges = pass.readWrite(buffers.ranges);
+    params.args = pass.write(buffers.level_args);
+    params.brick_mask = static_cast<std::uint32_t>(buffers.bricks.count() - 1);
+    params.level_count = job.tree.grid.nodeLevels();
+    params.max_groups_x = graph.device().limits().maxComputeWorkGroupCount[0];
+    params.base_root = job.base_root;
+    pass.dispatch(buffers.bricks.count(), params);
+}
+
 // Records the passes that list the touched leaves and all nodes above them. Returns the number of records.
 void listTouched(vk::FrameGraph& graph, const UpdateJob& job, UpdateBuffers& buffers)
 {
@@ -79,7 +105,9 @@ void listTouched(vk::FrameGraph& graph, const UpdateJob& job, UpdateBuffers& buf
                           {layer->emission_words.address()},
                           {layer->emission_sums.address()},
                           record_count,
-                          capacity});
+                          capacity,
+                          layer->kind(job.tree.grid),
+                          0});
         record_count += capacity;
     }
     graph.fill(buffers.counters, 0);
@@ -87,9 +115,15 @@ void listTouched(vk::FrameGraph& graph, const UpdateJob& job, UpdateBuffers& buf
     graph.fill(buffers.bricks, 0);
     graph.fill(buffers.heads, 0);
     graph.fill(buffers.partials, 0);
+    const bool carves = carve(job);
+    if (carves)
+    {
+        graph.fill(buffers.carved, 0);
+    }
     graph.update(buffers.layers, 0, layers);
     gpu::OverlayState state{};
     state.args = {buffers.args.address()};
+    state.carved = {buffers.carved.address()};
     state.level_count = job.tree.grid.nodeLevels();
     state.node_capacity = job.region.node_capacity;
     state.voxel_capacity = job.region.voxel_capacity;
@@ -103,21 +137,29 @@ void listTouched(vk::FrameGraph& graph, const UpdateJob& job, UpdateBuffers& buf
         first_item += levelCapacity(buffers.bricks.count(), state.level_count - 1 - height);
     }
     graph.update(buffers.ranges, 0, ranges);
-    vk::Pass pass = graph.addPass(gpu::update::Insert{.wide_keys = hasWideKeys(job.tree.grid)});
-    pass.dispatch(record_count, {.layers = readLayers(pass, job, buffers),
-                                 .bricks = pass.readWrite(buffers.bricks),
-                                 .heads = pass.readWrite(buffers.heads),
-                                 .links = pass.write(buffers.links),
-                                 .items = pass.write(buffers.items),
-                                 .counters = pass.readWrite(buffers.counters),
-                                 .state = pass.readWrite(buffers.state),
-                                 .ranges = pass.readWrite(buffers.ranges),
-                                 .args = pass.write(buffers.level_args),
-                                 .layer_count = static_cast<std::uint32_t>(layers.size()),
-                                 .record_count = record_count,
-                                 .brick_mask = static_cast<std::uint32_t>(buffers.bricks.count() - 1),
-                                 .level_count = state.level_count,
-                                 .max_groups_x = state.max_groups_x});
+    {
+        vk::Pass pass = graph.addPass(gpu::update::Insert{
+            .wide_keys = hasWideKeys(job.tree.grid), .carves = carves, .exposes = carves && job.tree.filled});
+        pass.readWrite(buffers.carved);
+        pass.dispatch(record_count, {.layers = readLayers(pass, job, buffers),
+                                     .bricks = pass.readWrite(buffers.bricks),
+                                     .heads = pass.readWrite(buffers.heads),
+                                     .links = pass.write(buffers.links),
+                                     .items = pass.write(buffers.items),
+                                     .counters = pass.readWrite(buffers.counters),
+                                     .state = pass.readWrite(buffers.state),
+                                     .ranges = pass.readWrite(buffers.ranges),
+                                     .args = pass.write(buffers.level_args),
+                                     .layer_count = static_cast<std::uint32_t>(layers.size()),
+                                     .record_count = record_count,
+                                     .brick_mask = static_cast<std::uint32_t>(buffers.bricks.count() - 1),
+                                     .level_count = state.level_count,
+                                     .max_groups_x = state.max_groups_x});
+    }
+    if (carves)
+    {
+        carveNodes(graph, job, buffers);
+    }
 }
 
 // Merges the roots, and writes the root's children.
@@ -126,8 +168,10 @@ void expandTop(vk::FrameGraph& graph, const UpdateJob& job, UpdateBuffers& buffe
     DeviceTree& tree = job.tree;
     vk::Pass pass = graph.addPass(gpu::update::Top{.wide_keys = hasWideKeys(tree.grid),
                                                    .attributes = tree.node_attributes.count() != 0,
-                                                   .entries_per_word = tree.entriesPerWord()});
+                                                   .entries_per_word = tree.entriesPerWord(),
+                                                   .carves = carve(job)});
     gpu::TopParams params{};
+    pass.read(buffers.carved);
     params.bricks = pass.read(buffers.bricks);
     params.items = pass.read(buffers.items);
     params.ranges = pass.read(buffers.ranges);
@@ -161,8 +205,10 @@ void writeNodes(vk::FrameGraph& graph, const UpdateJob& job, UpdateBuffers& buff
     vk::Pass pass = graph.addPass(gpu::update::Expand{.wide_keys = hasWideKeys(tree.grid),
                                                       .attributes = tree.node_attributes.count() != 0,
                                                       .entries_per_word = tree.entriesPerWord(),
-                                                      .leaves = tree.isDag() && level + 1 == tree.grid.nodeLevels()});
+                                                      .leaves = tree.isDag() && level + 1 == tree.grid.nodeLevels(),
+                                                      .carves = carve(job)});
     gpu::ExpandParams params{};
+    pass.read(buffers.carved);
     params.bricks = pass.read(buffers.bricks);
     params.items = pass.read(buffers.items);
     params.ranges = pass.read(buffers.ranges);
@@ -203,8 +249,10 @@ void assignBases(vk::FrameGraph& graph, const UpdateJob& job, UpdateBuffers& buf
 template <typename Kernel> void addMergePass(vk::FrameGraph& graph, const UpdateJob& job, UpdateBuffers& buffers)
 {
     const bool emits = job.tree.emission_words.count() != 0;
-    vk::Pass pass = graph.addPass(Kernel{.merge = job.merge, .emits = emits, .ranks = job.tree.overlays.hasRanks()});
+    vk::Pass pass = graph.addPass(
+        Kernel{.merge = job.merge, .emits = emits, .ranks = job.tree.overlays.hasRanks(), .carves = carve(job)});
     gpu::MergeParams params{};
+    pass.read(buffers.carved);
     params.view = pass.read(job.view);
     pass.read(job.tables);
     pass.read(job.tree.sums.sums);
@@ -318,6 +366,7 @@ UpdateBuffers::UpdateBuffers(vk::Device& device, const UpdateCapacities& capacit
     : layers(device, "update/layers", gpu::kLayersMax), links(device, "update/links", capacities.records),
       bricks(device, "update/bricks", capacities.touched), counters(device, "update/brick_counters", 1),
       heads(device, "update/heads", capacities.touched), touched(device, "update/touched", capacities.touched),
+      carved(device, "update/carved", capacities.carves ? capacities.touched : 0),
       items(device, "update/items", itemCount(capacities.touched, grid.nodeLevels())),
       ranges(device, "update/ranges", gpu::kNodeLevelsMax),
       level_args(device, "update/level_args", gpu::kNodeLevelsMax),
@@ -329,7 +378,8 @@ UpdateBuffers::UpdateBuffers(vk::Device& device, const UpdateCapacities& capacit
 
 std::uint64_t UpdateBuffers::bytes(const UpdateCapacities& capacities, const Grid& grid)
 {
-    return capacities.touched * (sizeof(gpu::BrickEntry) + sizeof(gpu::uint) + sizeof(gpu::TouchedNode)) +
+    return capacities.touched * (sizeof(gpu::BrickEntry) + sizeof(gpu::uint) + sizeof(gpu::TouchedNode) +
+                                 (capacities.carves ? sizeof(gpu::CarvedNode) : 0)) +
            itemCount(capacities.touched, grid.nodeLevels()) * sizeof(gpu::WorkItem) +
            capacities.records * sizeof(gpu::LayerLink) + capacities.overlay_nodes * sizeof(gpu::uint);
 }

@@ -21,6 +21,7 @@ struct UpdateCapacities
     std::uint64_t touched = 0;       // entries of the table of touched nodes, a power of two
     std::uint64_t records = 0;       // sum of the leaf capacities of all layers
     std::uint64_t overlay_nodes = 0; // of the largest region
+    bool carves = false;             // some layer does
 
     bool operator==(const UpdateCapacities&) const = default;
 };
@@ -39,6 +40,7 @@ struct UpdateBuffers
     vk::BufferOf<gpu::BrickCounters> counters;  // [1]
     vk::BufferOf<gpu::uint> heads;              // [capacities.touched]
     vk::BufferOf<gpu::TouchedNode> touched;     // [capacities.touched]
+    vk::BufferOf<gpu::CarvedNode> carved;       // [capacities.touched], or empty if no layer carves
     vk::BufferOf<gpu::WorkItem> items;          // the touched nodes of each level, leaves first
     vk::BufferOf<gpu::LevelRange> ranges;       // [kNodeLevelsMax] the items of each level, leaves first
     vk::BufferOf<gpu::DispatchArgs> level_args; // [kNodeLevelsMax] of each level, leaves first: one thread an item

@@ -23,8 +23,9 @@ std::uint64_t recentMost(std::uint64_t most, std::uint64_t needed)
 
 } // namespace
 
-void UpdateSizes::begin(std::uint64_t leaves)
+void UpdateSizes::begin(std::uint64_t leaves, bool carves)
 {
+    m_carves = carves;
     const std::uint64_t added = leaves - std::min(leaves, m_leaves);
     m_leaves = leaves;
     m_most_leaves = recentMost(m_most_leaves, leaves);
@@ -48,7 +49,8 @@ UpdateCapacities UpdateSizes::fitting(const UpdateCapacities& current) const
     const std::uint64_t table = std::max(m_is_minimal ? 1 : std::bit_ceil(2 * m_leaves), m_table_min);
     return {.touched = std::max(base.touched, table),
             .records = enough(base.records, m_leaves),
-            .overlay_nodes = enough(base.overlay_nodes, m_likely_nodes)};
+            .overlay_nodes = enough(base.overlay_nodes, m_likely_nodes),
+            .carves = base.carves || m_carves};
 }
 
 void UpdateSizes::learn(const gpu::UpdateStatus& status, const OverlayRegion& region, std::uint64_t table_entries)

@@ -17,8 +17,8 @@ public:
     /// minimal: every capacity starts at one.
     explicit UpdateSizes(bool minimal) : m_is_minimal(minimal) {}
 
-    /// Begins an update of layers whose leaf capacities have this sum.
-    void begin(std::uint64_t leaves);
+    /// Begins an update of layers whose leaf capacities have this sum. carves: some of them do.
+    void begin(std::uint64_t leaves, bool carves = false);
 
     /// The expected size of the next overlay.
     [[nodiscard]] std::uint64_t likelyNodes() const { return m_likely_nodes; }
@@ -34,6 +34,7 @@ public:
 private:
     bool m_is_minimal;
     std::uint64_t m_leaves = 0; // of the last begin()
+    bool m_carves = false;
     std::uint64_t m_table_min = 0;
     std::uint64_t m_likely_nodes = 0;
     std::uint64_t m_likely_voxels = 0;

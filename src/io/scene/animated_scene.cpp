@@ -121,7 +121,10 @@ Scene withObjects(Scene scene, const std::vector<DynamicObject>& objects, double
 {
     for (const DynamicObject& object : objects)
     {
-        scene.append(posedScene(*object.scene, poseAt(object, seconds)));
+        if (!object.carves)
+        {
+            scene.append(posedScene(*object.scene, poseAt(object, seconds)));
+        }
     }
     return scene;
 }
@@ -169,7 +172,10 @@ Bounds boundsOverTime(const AnimatedScene& animated)
     Bounds bounds = animated.fixed.bounds();
     for (const DynamicObject& object : animated.objects)
     {
-        extend(bounds, boundsOfObject(object, animated));
+        if (!object.carves)
+        {
+            extend(bounds, boundsOfObject(object, animated));
+        }
     }
     return bounds;
 }

@@ -25,6 +25,8 @@ struct DynamicObject
     glm::dmat4 transform{1.0};          // of the scene before the motion; affine
     Motion motion;
     bool deforms = false; // animations of the scene move or bend parts of it, besides transformAt()
+    bool carves = false;  // takes its voxels away; is no part of sceneAt() and boundsOverTime()
+    Fill fill = Fill::None;
 };
 
 /// A scene in which objects may move. Its time runs from 0 to `seconds`; then everything begins anew.
@@ -68,7 +70,7 @@ glm::dmat4 transformAt(const DynamicObject& object, double seconds);
 Pose poseAt(const DynamicObject& object, double seconds);
 
 /// The whole animated scene at a time as one scene: first the fixed part, then each dynamic object in its pose, in
-/// order. This is what a full rebuild voxelizes. Throws as posedScene().
+/// order, but those that carve. This is what a full rebuild voxelizes. Throws as posedScene().
 Scene sceneAt(const AnimatedScene& animated, double seconds);
 Scene sceneAt(AnimatedScene&& animated, double seconds);
 

@@ -420,6 +420,8 @@ AnimatedScene loadAnimatedScene(const fs::path& path, const AnimatedSceneOptions
         dynamic_object.name = object.name;
         dynamic_object.transform = object.transform;
         dynamic_object.motion = object.motion;
+        dynamic_object.carves = object.carves;
+        dynamic_object.fill = object.fill;
         addObject(animated, std::move(dynamic_object), parts);
     }
     for (std::string& warning : loader.skipped().warnings())

@@ -179,9 +179,35 @@ AnimationChoice readAnimation(const JsonCursor& animation)
     return animation.whole(0, UINT32_MAX);
 }
 
+// How an object is merged: not as the others, or as what carves.
+void readCarving(const JsonCursor& json, SceneFileObject& object)
+{
+    const auto merge = json.find("merge");
+    const auto fill = json.find("fill");
+    if (merge)
+    {
+        static_cast<void>(merge->oneOf({"carve"}));
+        if (object.is_dynamic == false)
+        {
+            throw merge->error("carves by an object that is static; expected dynamic");
+        }
+        object.carves = true;
+        object.is_dynamic = true;
+        object.fill = Fill::Solid;
+    }
+    if (fill)
+    {
+        if (!object.carves)
+        {
+            throw fill->error("fills an object that does not carve; expected merge beside it");
+        }
+        object.fill = static_cast<Fill>(fill->oneOf({"none", "solid", "parity"}));
+    }
+}
+
 SceneFileObject readObject(const JsonCursor& json, double scene_seconds)
 {
-    json.allowKeys({"name", "file", "static", "dynamic", "up", "place", "motion", "animation"});
+    json.allowKeys({"name", "file", "static", "dynamic", "up", "place", "motion", "animation", "merge", "fill"});
     SceneFileObject object;
     object.where = json.where();
     object.file = json.at("file").text();
@@ -207,6 +233,7 @@ SceneFileObject readObject(const JsonCursor& json, double scene_seconds)
         }
         object.animation = readAnimation(*animation);
     }
+    readCarving(json, object);
     return object;
 }
 

@@ -30,7 +30,9 @@ struct SceneFileObject
     glm::dmat4 transform{1.0}; // of the object's scene, whose up axis is y already; affine
     Motion motion;
     std::optional<AnimationChoice> animation; // the file's animation that plays; not given: the first
-    std::optional<bool> is_dynamic;           // not given: dynamic if it moves or is animated
+    std::optional<bool> is_dynamic;           // not given: dynamic if it moves, is animated or carves
+    bool carves = false;
+    Fill fill = Fill::None; // if it carves
 };
 
 /// The camera of a scene file: a camera of a static object by its name, "auto", "close", or numbers.

@@ -128,7 +128,11 @@ TEST(SceneFile, AnimationsAreNamedOrNumbered)
     EXPECT_EQ(parseObject(R"("animation": 2)").animation, AnimationChoice(2U));
     const SceneFileObject object = parseObject(R"("up": "y")");
     EXPECT_FALSE(object.animation.has_value() || object.is_dynamic.has_value());
+    EXPECT_FALSE(object.carves);
     EXPECT_FALSE(parseObject(R"("animation": 2)").is_dynamic.has_value()) << "what it moves is dynamic";
+    const SceneFileObject carver = parseObject(R"("merge": "carve")");
+    EXPECT_TRUE(carver.carves && carver.is_dynamic == true && carver.fill == Fill::Solid);
+    EXPECT_EQ(parseObject(R"("merge": "carve", "fill": "none")").fill, Fill::None);
 }
 
 TEST(SceneFile, LineIsReadWithItsRepeat)
@@ -222,6 +226,18 @@ const std::vector<WrongFile>& wrongFiles()
         {"StaticThatIsAnimated",
          objectText(R"("static": true, "animation": "walk")"),
          {"objects[0].animation plays in an object that is static; expected dynamic"}},
+        {"StaticThatCarves",
+         objectText(R"("static": true, "merge": "carve")"),
+         {"objects[0].merge carves by an object that is static; expected dynamic"}},
+        {"ObjectWithARuleOfItsOwn",
+         objectText(R"("merge": "average")"),
+         {"objects[0].merge is \"average\"; expected one of carve"}},
+        {"FilledThatDoesNotCarve",
+         objectText(R"("fill": "solid")"),
+         {"objects[0].fill fills an object that does not carve; expected merge beside it"}},
+        {"FillThatNoObjectHas",
+         objectText(R"("merge": "carve", "fill": "robust")"),
+         {"objects[0].fill is \"robust\"; expected one of none, solid, parity"}},
         {"AnimationOfWrongKind",
          objectText(R"("animation": ["walk"])"),
          {"objects[0].animation is [\"walk\"]; expected the name of an animation of the file, or its number"}},
