@@ -28,7 +28,7 @@ def tag():
 
 def metadata():
     return {"METADATA": f"Metadata-Version: 2.1\nName: zvo\nVersion: {version()}\nRequires-Python: >=3.9\n"
-                        "Requires-Dist: numpy\nLicense: MIT\n"
+                        "Requires-Dist: numpy>=1.23\nLicense: MIT\n"
                         "Summary: Voxels of meshes and points, made and traced on Vulkan devices\n",
             "WHEEL": f"Wheel-Version: 1.0\nGenerator: zvo\nRoot-Is-Purelib: false\nTag: {tag()}\n"}
 

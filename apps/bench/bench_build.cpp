@@ -87,10 +87,7 @@ void benchBuild(const BenchBuildOptions& options)
         row.build_ms = runs.build_ms;
         row.passes = std::move(runs.passes);
         row.setSizes(runs.last.octree);
-        if (options.fill == Fill::None)
-        {
-            withDag(row, [&] { measureCompress(device, runs.last.octree, options.run_count, row); });
-        }
+        withDag(row, [&] { measureCompress(device, runs.last.octree, options.run_count, row); });
     };
     measureRows(options, table, measure);
 }

@@ -58,7 +58,7 @@ struct PictureSizeOptions
 
 struct BenchBuildOptions : PassBenchOptions
 {
-    Fill fill = Fill::None; // filled octrees are not compressed
+    Fill fill = Fill::None;
 };
 
 struct BenchRaysOptions : PassBenchOptions

@@ -40,9 +40,9 @@ struct CameraInfo
     /// The camera of matrices by which the host draws, in columns as Mat4: what it shows at a pixel is what a
     /// rasterizer shows there. view: from world to view space, of either handedness, with any axis up. projection: from
     /// view to clip space, perspective or orthographic, with or without jitter, off-centre, mirrored, infinite, and
-    /// with depth of any kind. Rays begin at the eye, those of an orthographic camera in its near plane. Throws
-    /// Error{Usage} for numbers that are not finite, for a matrix that cannot be inverted, and for one that shears:
-    /// whose pictures' rows and columns are not at right angles.
+    /// with depth of any kind; if it is orthographic, from 0 to 1 in either order. Rays begin at the eye, those of an
+    /// orthographic camera in its near plane. Throws Error{Usage} for numbers that are not finite, for a matrix that
+    /// cannot be inverted, and for one that shears: whose pictures' rows and columns are not at right angles.
     [[nodiscard]] static ZVO_API CameraInfo ofMatrices(const DMat4& view, const DMat4& projection,
                                                        const ClipSpace& clip = {});
 

@@ -56,6 +56,7 @@ struct GridArguments
     std::optional<std::uint32_t> depth;
     std::string coverage;
     std::string fill;
+    std::string shell;
     std::optional<std::array<float, 6>> bounds;
     bool attributes = true;
 };
@@ -66,6 +67,7 @@ cli::VoxelOptions optionsOf(const GridArguments& arguments)
     options.depth = arguments.depth;
     options.coverage = cli::parseNamed("coverage", arguments.coverage, cli::kCoverages);
     options.fill = cli::parseNamed("fill", arguments.fill, cli::kFills);
+    options.shell = cli::parseNamed("shell", arguments.shell, cli::kShells);
     options.attributes = arguments.attributes ? AttributeFormat::Bytes8 : AttributeFormat::None;
     if (arguments.bounds)
     {
@@ -191,13 +193,12 @@ PYBIND11_MODULE(_native, module)
                });
 
     py::class_<GridArguments>(module, "GridArguments")
-        .def(py::init(
-                 [](const std::optional<std::uint32_t>& depth, const std::string& coverage, const std::string& fill,
-                    const std::optional<std::array<float, 6>>& bounds, bool attributes) {
-                     return GridArguments{depth, coverage, fill, bounds, attributes};
-                 }),
-             py::kw_only(), py::arg("depth"), py::arg("coverage"), py::arg("fill"), py::arg("bounds"),
-             py::arg("attributes"));
+        .def(
+            py::init([](const std::optional<std::uint32_t>& depth, const std::string& coverage, const std::string& fill,
+                        const std::string& shell, const std::optional<std::array<float, 6>>& bounds, bool attributes)
+                     { return GridArguments{depth, coverage, fill, shell, bounds, attributes}; }),
+            py::kw_only(), py::arg("depth"), py::arg("coverage"), py::arg("fill"), py::arg("shell"), py::arg("bounds"),
+            py::arg("attributes"));
 
     py::class_<Tree>(module, "Tree")
         .def_property_readonly("resolution", [](const Tree& tree) { return tree.device().grid.resolution(); })

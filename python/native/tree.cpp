@@ -64,10 +64,9 @@ Voxels Tree::voxels() const
 
 std::unique_ptr<Tree> Tree::compress() const
 {
-    if (m_tree.isDag() || m_tree.filled)
+    if (m_tree.isDag())
     {
-        throw Error(ErrorCode::Usage,
-                    m_tree.isDag() ? "the tree is a DAG already" : "a filled tree cannot be compressed");
+        throw Error(ErrorCode::Usage, "the tree is a DAG already");
     }
     return m_session->use(
         [&](vk::HeadlessDevice& device)

@@ -40,7 +40,7 @@ public:
 
     [[nodiscard]] Voxels voxels() const;
 
-    /// The DAG with the same voxels. Throws Error{Usage} for a DAG and for a filled tree.
+    /// The DAG with the same voxels. Throws Error{Usage} for a DAG.
     [[nodiscard]] std::unique_ptr<Tree> compress() const;
 
     /// Writes a file of the kind that its name tells, in place of any that is there. Throws Error{Usage} for a name

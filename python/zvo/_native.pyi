@@ -11,7 +11,7 @@ Floats = npt.NDArray[np.float32]
 version: str
 
 class GridArguments:
-    def __init__(self, *, depth: Optional[int], coverage: str, fill: str, bounds: Optional[list[float]],
+    def __init__(self, *, depth: Optional[int], coverage: str, fill: str, shell: str, bounds: Optional[list[float]],
                  attributes: bool) -> None: ...
 
 class Tree:

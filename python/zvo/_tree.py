@@ -76,8 +76,8 @@ class Tree:
         return self._native.bytes
 
     def compress(self) -> Tree:
-        """The DAG of the same voxels, in which equal parts of the octree are stored once. Raises ValueError for a DAG
-        and for a filled tree, ZvoError."""
+        """The DAG of the same voxels, in which equal parts of the octree are stored once. Raises ValueError for a DAG,
+        ZvoError."""
         return Tree(self._native.compress())
 
     def save(self, path: str | os.PathLike[str]) -> None:

@@ -13,6 +13,7 @@ from ._devices import name_of
 from ._tree import Tree
 
 Fill = Literal["none", "solid", "parity", "robust"]
+Shell = Literal["surface", "none"]
 Coverage = Literal["thin", "conservative"]
 Path = Union[str, "os.PathLike[str]"]
 
@@ -20,7 +21,7 @@ Path = Union[str, "os.PathLike[str]"]
 def voxelize(vertices: _arrays.Input, faces: _arrays.Input | None = None, *, colors: _arrays.Input | None = None,
              normals: _arrays.Input | None = None, uv: _arrays.Input | None = None,
              texture: _arrays.Input | None = None, resolution: int = 512, fill: Fill = "none",
-             coverage: Coverage = "thin", bounds: _arrays.Input | None = None, attributes: bool = True,
+             shell: Shell = "surface", coverage: Coverage = "thin", bounds: _arrays.Input | None = None, attributes: bool = True,
              device: str | int | None = None) -> Tree:
     """Voxelizes triangles, or points.
 
@@ -32,6 +33,8 @@ def voxelize(vertices: _arrays.Input, faces: _arrays.Input | None = None, *, col
     texture: (height, width, 3 or 4) uint8 in sRGB, rows from the top. It multiplies the colours.
     resolution: voxels per edge of the grid, a power of two from 2 to 131,072.
     fill: whether voxels inside are there, too, and how the inside is decided: docs/voxelization.md, "Filling".
+    shell: with fill "solid" or "parity": "surface": the voxels of the surface are there, too; "none": only those whose
+        centres are inside.
     coverage: "thin": voxels by a rule that leaves no hole across faces; "conservative": all that are touched.
     bounds: (2, 3) corners of a box: the grid is the cube from its low corner on, as long as its longest edge. None:
         the smallest cube around the vertices that faces use.
@@ -53,11 +56,11 @@ def voxelize(vertices: _arrays.Input, faces: _arrays.Input | None = None, *, col
     return Tree(_native.voxelize(name_of(device), positions, triangles, of_vertices("normals", normals, 3), linear,
                                  of_vertices("uv", uv, 2),
                                  None if texture is None else _arrays.picture("texture", texture),
-                                 _grid(resolution, fill, coverage, bounds, attributes)))
+                                 _grid(resolution, fill, shell, coverage, bounds, attributes)))
 
 
 def load(path: Path | Sequence[Path], *, resolution: int | None = None, fill: Fill = "none",
-         coverage: Coverage = "thin", bounds: _arrays.Input | None = None, attributes: bool = True, up: str = "y",
+         shell: Shell = "surface", coverage: Coverage = "thin", bounds: _arrays.Input | None = None, attributes: bool = True, up: str = "y",
          scale: float = 1.0, point_size: int = 1, time: float | None = None, device: str | int | None = None) -> Tree:
     """Reads a file: the voxels of .zvo and .vox, or a mesh, points or a scene, which is voxelized (docs/input.md).
 
@@ -79,10 +82,10 @@ def load(path: Path | Sequence[Path], *, resolution: int | None = None, fill: Fi
     if time is not None and not (0 <= time < float("inf")):
         raise ValueError(f"time: expected seconds from 0 on, got {time}")
     return Tree(_native.load(name_of(device), [os.fspath(one) for one in paths], up, scale, edge, time,
-                             _grid(resolution, fill, coverage, bounds, attributes)))
+                             _grid(resolution, fill, shell, coverage, bounds, attributes)))
 
 
-def _grid(resolution: int | None, fill: str, coverage: str, bounds: _arrays.Input | None,
+def _grid(resolution: int | None, fill: str, shell: str, coverage: str, bounds: _arrays.Input | None,
           attributes: bool) -> _native.GridArguments:
     edge = None if resolution is None else operator.index(resolution)
     if edge is not None and (not 2 <= edge <= 1 << 17 or edge & (edge - 1) != 0):
@@ -91,5 +94,5 @@ def _grid(resolution: int | None, fill: str, coverage: str, bounds: _arrays.Inpu
     if corners is not None and not (np.isfinite(corners).all() and (corners[0] <= corners[1]).all()
                                     and (corners[0] < corners[1]).any()):
         raise ValueError("bounds: expected the low and the high corner of a box")
-    return _native.GridArguments(depth=None if edge is None else edge.bit_length() - 1, coverage=coverage, fill=fill,
+    return _native.GridArguments(depth=None if edge is None else edge.bit_length() - 1, coverage=coverage, fill=fill, shell=shell,
                                  bounds=None if corners is None else corners.ravel().tolist(), attributes=attributes)

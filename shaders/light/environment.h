@@ -2,8 +2,9 @@
 // Light from outside of the grid: a map of radiance in all directions, a sun, and the tables by which directions
 // towards the map's light are chosen.
 //
-// A map has width x height texels of linear radiance, row by row from the top: equirectangular, up is its +y, the middle
-// of the map is its -z, and +x is a quarter of the width to the right of it. Between the middles of texels radiance is linear.
+// A map has width x height texels of linear radiance, row by row from the top: equirectangular, up is its +y, the
+// middle of the map is its -z, and +x is a quarter of the width to the right of it. Between the middles of texels
+// radiance is linear.
 //
 // Directions are chosen by cells, which divide the map evenly: a cell by an alias table (A. Walker, 1977), in it a
 // direction uniformly by solid angle. There is a table for each of the six normals that faces of voxels have. A cell's

@@ -85,7 +85,8 @@ struct Layer
 };
 GPU_BUFFER(Layer, 8);
 
-// Of a layer that carves, bits of Layer::kind. Its keys are those of a grid of twice as many voxels an edge.
+// Of a layer that carves, bits of Layer::kind. Its keys are those of a grid of twice as many voxels an edge; at depth 1
+// of four times as many, at depth 17 of the same.
 const uint kLayerCarves = 1u;
 const uint kLayerDeeper = 2u;   // that grid has a level of nodes more
 const uint kLayerWideKeys = 4u; // and wide keys

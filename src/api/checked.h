@@ -29,10 +29,10 @@ template <typename Enum> Enum checkedEnum(Enum value, Enum last, const char* nam
     return value;
 }
 
-/// Checks that the depth exists, the far corner is finite, and the voxel size has a finite inverse.
-/// A direction of length 1.
+/// What is up, as a direction of length 1. Throws Error{Usage} for a direction without a length.
 glm::dvec3 checkedUp(const DVec3& up, const char* name);
 
+/// Checks that the depth exists, the far corner is finite, and the voxel size has a finite inverse.
 Grid checkedGrid(const GridInfo& info);
 
 /// Checks that a transform is finite and affine. what: the transform's name in messages.

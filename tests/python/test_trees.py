@@ -84,6 +84,16 @@ class Trees(support.Case):
             self.expect_equal(getattr(dag, name), getattr(tree, name))
         self.expect_equal(tree.render((64, 48)), dag.render((64, 48)))
 
+    def test_filled_trees_become_dags(self):
+        tree = zvo.voxelize(*meshes.sphere(), resolution=64, fill="solid")
+        dag = tree.compress()
+        self.assertTrue(dag.is_dag)
+        for name in ("coords", "colors", "normals"):
+            self.expect_equal(getattr(dag, name), getattr(tree, name))
+        inside = zvo.voxelize(*meshes.sphere(), resolution=64, fill="solid", shell="none")
+        self.assertLess(len(inside), len(tree))
+        self.assertLessEqual(set(map(tuple, inside.coords)), set(map(tuple, tree.coords)))
+
     def test_files_are_those_of_the_command_line(self):
         path = support.SCENES / "knot.glb"
         tree = zvo.load(path, resolution=64)

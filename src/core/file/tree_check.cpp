@@ -259,6 +259,7 @@ void requireTree(const TreeData& tree)
     }
     if (tree.isFilled())
     {
+        requireSound(tree.levels.size() != 1, "a filled tree of one level of nodes");
         requireOccupied(tree);
     }
     requireAttributes(tree);

@@ -352,7 +352,7 @@ Setting anySetting(std::mt19937& random)
 {
     const auto pick = [&](int low, int high) { return std::uniform_int_distribution<int>(low, high)(random); };
     Setting setting;
-    setting.depth = std::array{5U, 5U, 4U, 3U, 2U, 1U, 6U, 7U, 12U, 13U}.at(static_cast<std::size_t>(pick(0, 9)));
+    setting.depth = std::array{5U, 5U, 4U, 3U, 2U, 1U, 6U, 7U, 10U, 12U, 13U}.at(static_cast<std::size_t>(pick(0, 10)));
     setting.coverage = pick(0, 1) != 0 ? Coverage::Thin : Coverage::Conservative;
     setting.merge = std::array{MergeRule::Average, MergeRule::DynamicWins, MergeRule::StaticWins}.at(
         static_cast<std::size_t>(pick(0, 2)));
