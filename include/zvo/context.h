@@ -67,7 +67,8 @@ struct MemoryUse
 /// get_instance_proc_addr. A Recorder records work into the host's command buffers, frame by frame. When an object is
 /// destroyed, whatever frames may still use of it is kept until the host says that the device is done with them.
 ///
-/// Not thread safe: a context and everything that was made with it is used by one thread at a time. Everything that was
+/// Not thread safe: a context and everything that was made with it is used by one thread at a time, but for
+/// KernelPreparation::make(). Everything that was
 /// made with it must be destroyed before it, and the device must be done with all frames by then.
 class ZVO_API Context
 {

@@ -51,6 +51,7 @@ typedef struct ZvoEnvironment ZvoEnvironment;
 typedef struct ZvoTracer ZvoTracer;
 typedef struct ZvoRadianceCache ZvoRadianceCache;
 typedef struct ZvoQueryBatch ZvoQueryBatch;
+typedef struct ZvoKernelPreparation ZvoKernelPreparation;
 
 // Structs without a size, which stay as they are.
 
@@ -220,6 +221,18 @@ ZVO_C_API ZvoResult zvoContextMemory(const ZvoContext* context, ZvoMemoryUse* us
 ZVO_C_API ZvoResult zvoContextPassTimeCount(const ZvoContext* context, uint32_t* count);
 ZVO_C_API ZvoResult zvoContextPassTime(const ZvoContext* context, uint32_t index, ZvoPassTime* time);
 ZVO_C_API ZvoResult zvoContextReport(const ZvoContext* context, const ZvoDeviceReport** report); // the context's own
+
+/// zvo::madeKernels(). text: lives until the next call for this context, or until the context is destroyed.
+ZVO_C_API ZvoResult zvoContextMadeKernels(ZvoContext* context, const char** text);
+
+// zvo::KernelPreparation.
+
+ZVO_C_API ZvoResult zvoKernelPreparationCreate(ZvoContext* context, const char* kernels,
+                                               ZvoKernelPreparation** preparation);
+ZVO_C_API void zvoKernelPreparationDestroy(ZvoKernelPreparation* preparation);
+ZVO_C_API ZvoResult zvoKernelPreparationSize(const ZvoKernelPreparation* preparation, size_t* size);
+ZVO_C_API ZvoResult zvoKernelPreparationMake(ZvoKernelPreparation* preparation, size_t index); // on any thread
+ZVO_C_API ZvoResult zvoKernelPreparationFinish(ZvoKernelPreparation* preparation);
 
 // zvo::Recorder. Ended before the host ends or submits the command buffer.
 

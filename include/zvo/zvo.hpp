@@ -11,6 +11,7 @@
 #include "zvo/dynamic_tree.h"
 #include "zvo/error.h"
 #include "zvo/image_target.h"
+#include "zvo/kernel_list.h"
 #include "zvo/light.h"
 #include "zvo/log.h"
 #include "zvo/memory.h"

@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstdio>
+#include <string_view>
 
 namespace zvo
 {
@@ -182,6 +183,44 @@ ZvoResult zvoContextPassTime(const ZvoContext* context, uint32_t index, ZvoPassT
 ZvoResult zvoContextReport(const ZvoContext* context, const ZvoDeviceReport** report)
 {
     return guarded(__func__, [&] { at(report, "report") = &at(context, "context").report; });
+}
+
+ZvoResult zvoContextMadeKernels(ZvoContext* context, const char** text)
+{
+    return guarded(__func__,
+                   [&]
+                   {
+                       const char*& result = at(text, "text");
+                       ZvoContext& handle = at(context, "context");
+                       handle.made_kernels = madeKernels(handle.object);
+                       result = handle.made_kernels.c_str();
+                   });
+}
+
+ZvoResult zvoKernelPreparationCreate(ZvoContext* context, const char* kernels, ZvoKernelPreparation** preparation)
+{
+    return guarded(__func__,
+                   [&]
+                   {
+                       Context& object = objectOf(context, "context");
+                       const std::string_view list = &at(kernels, "kernels");
+                       give(preparation, "preparation", [&] { return KernelPreparation(object, list); });
+                   });
+}
+
+ZvoResult zvoKernelPreparationSize(const ZvoKernelPreparation* preparation, size_t* size)
+{
+    return guarded(__func__, [&] { at(size, "size") = objectOf(preparation, "preparation").size(); });
+}
+
+ZvoResult zvoKernelPreparationMake(ZvoKernelPreparation* preparation, size_t index)
+{
+    return guarded(__func__, [&] { objectOf(preparation, "preparation").make(index); });
+}
+
+ZvoResult zvoKernelPreparationFinish(ZvoKernelPreparation* preparation)
+{
+    return guarded(__func__, [&] { objectOf(preparation, "preparation").finish(); });
 }
 
 ZvoResult zvoRecorderBegin(ZvoContext* context, VkCommandBuffer commands, uint64_t frame, VkPipelineStageFlags2 readers,

@@ -20,5 +20,6 @@ ZVO_DESTROYS(zvoEnvironmentDestroy, ZvoEnvironment)
 ZVO_DESTROYS(zvoTracerDestroy, ZvoTracer)
 ZVO_DESTROYS(zvoRadianceCacheDestroy, ZvoRadianceCache)
 ZVO_DESTROYS(zvoQueryBatchDestroy, ZvoQueryBatch)
+ZVO_DESTROYS(zvoKernelPreparationDestroy, ZvoKernelPreparation)
 
 #undef ZVO_DESTROYS

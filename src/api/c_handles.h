@@ -7,6 +7,7 @@
 #include "zvo/zvo.hpp"
 
 #include <deque>
+#include <string>
 
 #define ZVO_HANDLE(Handle, Object)                                                                                     \
     struct Handle                                                                                                      \
@@ -24,6 +25,7 @@ ZVO_HANDLE(ZvoEnvironment, Environment);
 ZVO_HANDLE(ZvoTracer, Tracer);
 ZVO_HANDLE(ZvoRadianceCache, RadianceCache);
 ZVO_HANDLE(ZvoQueryBatch, QueryBatch);
+ZVO_HANDLE(ZvoKernelPreparation, KernelPreparation);
 
 #undef ZVO_HANDLE
 
@@ -37,6 +39,7 @@ struct ZvoContext
     ZvoLogCallback log;
     zvo::Context object;
     ZvoDeviceReport report;
+    std::string made_kernels = {}; // as the host was told last
 };
 
 struct ZvoDynamicTree

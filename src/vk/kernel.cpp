@@ -80,10 +80,15 @@ bool bindsStorage(const EmbeddedKernel& kernel)
     return std::ranges::any_of(bindings, [](const ModuleBinding& binding) { return binding.texel_words == 0; });
 }
 
-std::string debugName(const EmbeddedKernel& kernel, const Specialization& specialization)
+// The module of a choice.
+std::span<const std::uint32_t> wordsOf(const EmbeddedKernel& embedded, const KernelChoice& choice)
 {
-    return specialization.empty() ? std::string(kernel.name)
-                                  : fmt::format("{}({})", kernel.name, fmt::join(specialization, ", "));
+    return choice.form == KernelForm::Bound ? embedded.bound_words : embedded.words;
+}
+
+std::string debugName(std::string_view name, const Specialization& specialization)
+{
+    return specialization.empty() ? std::string(name) : fmt::format("{}({})", name, fmt::join(specialization, ", "));
 }
 
 } // namespace
@@ -138,7 +143,8 @@ const EmbeddedKernel& KernelCache::find(std::string_view name) const
 const Kernel& KernelCache::get(std::string_view name, const Specialization& specialization, KernelForm form)
 {
     const EmbeddedKernel& embedded = find(name);
-    const Key key{std::string(name), specialization, embedded.bound_words.empty() ? KernelForm::Addressed : form};
+    const KernelChoice key{std::string(name), specialization,
+                           embedded.bound_words.empty() ? KernelForm::Addressed : form};
     const auto known = m_kernels.find(key);
     if (known != m_kernels.end())
     {
@@ -222,19 +228,77 @@ std::vector<std::string> KernelCache::names() const
     return names;
 }
 
-void KernelCache::create(const EmbeddedKernel& embedded, const Key& key, Kernel& kernel)
+std::vector<KernelChoice> KernelCache::made() const
+{
+    std::vector<KernelChoice> choices;
+    for (const auto& [choice, kernel] : m_kernels)
+    {
+        choices.push_back(choice);
+    }
+    return choices;
+}
+
+std::optional<PendingKernel> KernelCache::begin(const KernelChoice& choice)
+{
+    const auto embedded = std::ranges::find(m_embedded, choice.name, &EmbeddedKernel::name);
+    if (embedded == m_embedded.end() || m_kernels.count(choice) != 0 ||
+        (choice.form == KernelForm::Bound && embedded->bound_words.empty()) ||
+        choice.specialization.size() != reflectKernel(wordsOf(*embedded, choice)).constants.size())
+    {
+        return std::nullopt;
+    }
+    PendingKernel pending(*this, choice);
+    layOut(*embedded, choice, pending.m_kernel);
+    return pending;
+}
+
+void KernelCache::compile(PendingKernel& pending) const
+{
+    pending.m_ms = makePipeline(find(pending.m_choice.name), pending.m_choice, pending.m_kernel);
+}
+
+void KernelCache::keep(PendingKernel pending)
+{
+    if (m_kernels.try_emplace(pending.m_choice, pending.m_kernel).second)
+    {
+        pending.m_kernel = {};
+        tell(pending.m_choice, pending.m_ms);
+    }
+}
+
+PendingKernel::~PendingKernel()
+{
+    m_cache.destroy(m_kernel);
+}
+
+PendingKernel::PendingKernel(PendingKernel&& other) noexcept
+    : m_cache(other.m_cache), m_choice(std::move(other.m_choice)), m_kernel(std::exchange(other.m_kernel, {})),
+      m_ms(other.m_ms)
+{
+}
+
+void KernelCache::create(const EmbeddedKernel& embedded, const KernelChoice& choice, Kernel& kernel)
+{
+    layOut(embedded, choice, kernel);
+    tell(choice, makePipeline(embedded, choice, kernel));
+}
+
+void KernelCache::tell(const KernelChoice& choice, double ms) const
+{
+    m_device.log(LogSeverity::Debug, "kernel {}: compiled in {:.1f} ms{}",
+                 debugName(choice.name, choice.specialization), ms,
+                 choice.form == KernelForm::Bound ? ", with descriptors" : "");
+}
+
+void KernelCache::layOut(const EmbeddedKernel& embedded, const KernelChoice& choice, Kernel& kernel)
 {
     const Functions& fn = m_device.fn();
-    const bool is_bound = key.form == KernelForm::Bound;
-    const std::span<const std::uint32_t> words = is_bound ? embedded.bound_words : embedded.words;
-    const Specialization& specialization = key.specialization;
     kernel.name = embedded.name;
-    kernel.specialization = specialization;
-    kernel.interface = reflectKernel(words);
-    checkSpecialization(embedded, kernel.interface, specialization);
-    specializeLocalSize(kernel.interface, specialization);
+    kernel.specialization = choice.specialization;
+    kernel.interface = reflectKernel(wordsOf(embedded, choice));
+    checkSpecialization(embedded, kernel.interface, choice.specialization);
+    specializeLocalSize(kernel.interface, choice.specialization);
     checkLimits(embedded, kernel.interface, m_device.limits());
-    const std::string name = debugName(embedded, specialization);
 
     VkPushConstantRange range{VK_SHADER_STAGE_COMPUTE_BIT, 0, kernel.interface.push_constant_bytes};
     VkPipelineLayoutCreateInfo layout{};
@@ -249,8 +313,17 @@ void KernelCache::create(const EmbeddedKernel& embedded, const Key& key, Kernel&
     layout.pushConstantRangeCount = range.size != 0 ? 1 : 0;
     layout.pPushConstantRanges = &range;
     VK_CHECK(fn.vkCreatePipelineLayout(m_device.handle(), &layout, m_device.allocationCallbacks(), &kernel.layout));
-    m_device.setName(VK_OBJECT_TYPE_PIPELINE_LAYOUT, reinterpret_cast<std::uint64_t>(kernel.layout), name);
+    m_device.setName(VK_OBJECT_TYPE_PIPELINE_LAYOUT, reinterpret_cast<std::uint64_t>(kernel.layout),
+                     debugName(embedded.name, choice.specialization));
+}
 
+// Returns the milliseconds that it took.
+double KernelCache::makePipeline(const EmbeddedKernel& embedded, const KernelChoice& choice, Kernel& kernel) const
+{
+    const Functions& fn = m_device.fn();
+    const std::span<const std::uint32_t> words = wordsOf(embedded, choice);
+    const Specialization& specialization = choice.specialization;
+    const std::string name = debugName(embedded.name, specialization);
     std::vector<VkSpecializationMapEntry> entries;
     for (std::uint32_t id = 0; id < specialization.size(); ++id)
     {
@@ -290,10 +363,9 @@ void KernelCache::create(const EmbeddedKernel& embedded, const Key& key, Kernel&
     {
         throwFailedCall(result, ("vkCreateComputePipelines for " + name).c_str(), __FILE_NAME__, __LINE__);
     }
-    const std::chrono::duration<double, std::milli> wall = std::chrono::steady_clock::now() - start;
-    m_device.log(LogSeverity::Debug, "kernel {}: compiled in {:.1f} ms{}", name, wall.count(),
-                 is_bound ? ", with descriptors" : "");
     m_device.setName(VK_OBJECT_TYPE_PIPELINE, reinterpret_cast<std::uint64_t>(kernel.pipeline), name);
+    const std::chrono::duration<double, std::milli> wall = std::chrono::steady_clock::now() - start;
+    return wall.count();
 }
 
 } // namespace zvo::vk

@@ -10,11 +10,13 @@
 #include <cstdint>
 #include <functional>
 #include <map>
+#include <optional>
 #include <set>
 #include <span>
 #include <string>
 #include <string_view>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 namespace zvo::vk
@@ -122,8 +124,41 @@ struct Kernel
     VkPipeline pipeline = VK_NULL_HANDLE;
 };
 
+/// A kernel with one choice of specialization constants, in one form.
+struct KernelChoice
+{
+    std::string name;
+    Specialization specialization;
+    KernelForm form = KernelForm::Addressed;
+
+    auto operator<=>(const KernelChoice&) const = default;
+};
+
+class KernelCache;
+
+/// A kernel on its way into a KernelCache, which must outlive it. It goes if it is not kept.
+class PendingKernel
+{
+public:
+    ~PendingKernel();
+    PendingKernel(PendingKernel&& other) noexcept;
+    PendingKernel(const PendingKernel&) = delete;
+    PendingKernel& operator=(const PendingKernel&) = delete;
+
+    [[nodiscard]] bool hasPipeline() const { return m_kernel.pipeline != VK_NULL_HANDLE; }
+
+private:
+    friend KernelCache;
+    PendingKernel(KernelCache& cache, KernelChoice choice) : m_cache(cache), m_choice(std::move(choice)) {}
+
+    KernelCache& m_cache;
+    KernelChoice m_choice;
+    Kernel m_kernel;
+    double m_ms = 0; // that the pipeline took
+};
+
 /// Makes pipelines on demand and keeps them for the life of a device, or until their kernel is replaced. Not thread
-/// safe.
+/// safe, but for compile().
 class KernelCache
 {
 public:
@@ -156,18 +191,28 @@ public:
     /// The names of all kernels.
     [[nodiscard]] std::vector<std::string> names() const;
 
-private:
-    struct Key
-    {
-        std::string name;
-        Specialization specialization;
-        KernelForm form;
+    /// What get() has made so far.
+    [[nodiscard]] std::vector<KernelChoice> made() const;
 
-        auto operator<=>(const Key&) const = default;
-    };
+    /// What get() does, in three steps. Begins a kernel, without its pipeline; nothing, if get() has made it or could
+    /// not: because of its name, its form, or the number of its constants. Throws as get().
+    [[nodiscard]] std::optional<PendingKernel> begin(const KernelChoice& choice);
+
+    /// Makes the pipeline. Several threads may do so at once, each for a kernel of its own, while another one uses the
+    /// cache, but for replace(). Throws as get().
+    void compile(PendingKernel& pending) const;
+
+    /// Keeps a kernel that has its pipeline, unless get() has made the same one meanwhile.
+    void keep(PendingKernel pending);
+
+private:
+    friend PendingKernel;
 
     [[nodiscard]] const EmbeddedKernel& find(std::string_view name) const;
-    void create(const EmbeddedKernel& embedded, const Key& key, Kernel& kernel);
+    void create(const EmbeddedKernel& embedded, const KernelChoice& choice, Kernel& kernel);
+    void layOut(const EmbeddedKernel& embedded, const KernelChoice& choice, Kernel& kernel);
+    double makePipeline(const EmbeddedKernel& embedded, const KernelChoice& choice, Kernel& kernel) const;
+    void tell(const KernelChoice& choice, double ms) const;
     void destroy(const Kernel& kernel) noexcept;
 
     Device& m_device;
@@ -175,7 +220,7 @@ private:
     std::set<std::string, std::less<>> m_bound; // kernels that passes run in their bound form
     std::map<std::string, std::vector<std::uint32_t>, std::less<>> m_modules; // of kernels that were replaced
     VkPipelineCache m_pipeline_cache;
-    std::map<Key, Kernel> m_kernels;
+    std::map<KernelChoice, Kernel> m_kernels;
     std::vector<Kernel> m_replaced;
 };
 
