@@ -14,7 +14,8 @@ Start::Start(const Options& options, void* host_features, std::size_t number) : 
     std::vector<zvo::DeviceReport> usable;
     for (VkPhysicalDevice candidate : m_instance.physicalDevices(options.device))
     {
-        zvo::DeviceReport report = zvo::query(m_instance.getProcAddr(), m_instance.handle(), candidate, Instance::kApiVersion);
+        zvo::DeviceReport report =
+            zvo::query(m_instance.getProcAddr(), m_instance.handle(), candidate, Instance::kApiVersion);
         if (report.usable())
         {
             usable.push_back(std::move(report));

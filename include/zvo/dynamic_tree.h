@@ -80,8 +80,9 @@ class ZVO_API DynamicTree
 {
 public:
     /// Takes over a static tree, and records its move to buffers with room behind it. Throws Error{Usage} for
-    /// attributes in fewer than 8 bytes, for a DAG of a filled octree, for MergeRule::Average without kept sums, for another emission scale and for
-    /// numbers out of range; then the tree stays as it is. Throws Error{Memory}; then the tree is gone.
+    /// attributes in fewer than 8 bytes, for a DAG of a filled octree, for MergeRule::Average without kept sums, for
+    /// another emission scale and for numbers out of range; then the tree stays as it is. Throws Error{Memory}; then
+    /// the tree is gone.
     DynamicTree(Recorder& recorder, Tree&& fixed, const DynamicTreeInfo& info);
     ~DynamicTree();
     DynamicTree(DynamicTree&&) noexcept;

@@ -75,7 +75,7 @@ GPU_KERNEL(light, environment_gives, EnvironmentGives, EnvironmentGivesParams, G
 struct SkyTexelsParams // push constants of light/sky_texels: a thread a texel
 {
     GPU_PTR(vec3) texels; // [width * height]
-    Sky sky; // in the axes of the map
+    Sky sky;              // in the axes of the map
     uint width;
     uint height;
 };

@@ -32,8 +32,9 @@ public:
     explicit DeviceEnvironment(vk::Device& device);
 
     /// A map of radiance in all directions (shaders/light/environment.h says which one is where). All values must be
-    /// finite and at least 0. turn: the angle, in radians, by which it is turned about up, counterclockwise as seen from
-    /// above. strength: factor for its radiance. Throws Error{Usage} for a picture of no texels, and Error{Memory}.
+    /// finite and at least 0. turn: the angle, in radians, by which it is turned about up, counterclockwise as seen
+    /// from above. strength: factor for its radiance. Throws Error{Usage} for a picture of no texels, and
+    /// Error{Memory}.
     DeviceEnvironment(vk::Device& device, const HdrImage& picture, double turn, double strength);
 
     /// The map of texels [width * height], which are uploaded at once.

@@ -36,7 +36,13 @@ gpu::PathView viewOf(const Grid& grid, const TraceCamera& camera, const PathOpti
                      std::uint32_t height)
 {
     const float unit = 1.0F / (grid.voxel_size * static_cast<float>(grid.rootResolution()));
-    return {camera.rays, camera.axis, width, height, options.seed, options.lens_radius * unit, options.focus_distance * unit};
+    return {camera.rays,
+            camera.axis,
+            width,
+            height,
+            options.seed,
+            options.lens_radius * unit,
+            options.focus_distance * unit};
 }
 
 // Declares that pass reads what the indices of attributes come from.
