@@ -116,6 +116,7 @@ ZvoResult zvoCameraOfMatrices(const double view[16], const double projection[16]
         __func__,
         [&]
         {
+            static_cast<void>(at(camera, "camera")); // before it is known whether the matrices are a camera's
             const ClipSpace clip = {.y_up = y_up != VK_FALSE, .reversed_depth = reversed_depth != VK_FALSE};
             write(camera, "camera",
                   CameraInfo::ofMatrices(arrayOf<16>(view, "view"), arrayOf<16>(projection, "projection"), clip));

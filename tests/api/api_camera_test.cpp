@@ -360,22 +360,19 @@ TEST(HostUp, SkySunAndMapsStandUpright)
     };
     const Pictures expected = picturesOf(kUp);
     EXPECT_EQ(std::set(expected.begin(), expected.end()).size(), expected.size());
-    for (const glm::dvec3& up : {glm::dvec3(0, 0, 1), glm::normalize(glm::dvec3(1, -2, 2))})
+    const Pictures turned = picturesOf(glm::normalize(glm::dvec3(1, -2, 2)));
+    for (std::size_t kind = 0; kind < expected.size(); ++kind)
     {
-        const Pictures turned = picturesOf(up);
-        for (std::size_t kind = 0; kind < expected.size(); ++kind)
+        std::size_t off = 0;
+        for (std::size_t i = 0; i < expected[kind].size(); ++i)
         {
-            std::size_t off = 0;
-            for (std::size_t i = 0; i < expected[kind].size(); ++i)
+            for (int shift = 0; shift < 24; shift += 8)
             {
-                for (int shift = 0; shift < 24; shift += 8)
-                {
-                    const auto code = [&](std::uint32_t word) { return static_cast<int>((word >> shift) & 0xFF); };
-                    off += std::abs(code(expected[kind][i]) - code(turned[kind][i])) > 2 ? 1 : 0;
-                }
+                const auto code = [&](std::uint32_t word) { return static_cast<int>((word >> shift) & 0xFF); };
+                off += std::abs(code(expected[kind][i]) - code(turned[kind][i])) > 2 ? 1 : 0;
             }
-            EXPECT_LT(off, 30U) << kind << ", up " << up.x << ' ' << up.y << ' ' << up.z; // at the sun's rim
         }
+        EXPECT_LT(off, 30U) << kind; // at the sun's rim
     }
 }
 

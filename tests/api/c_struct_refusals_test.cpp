@@ -291,6 +291,8 @@ TEST(CStructs, DestroyingNullDoesNothing)
     zvoEnvironmentDestroy(nullptr);
     zvoTracerDestroy(nullptr);
     zvoRadianceCacheDestroy(nullptr);
+    zvoQueryBatchDestroy(nullptr);
+    zvoKernelPreparationDestroy(nullptr);
 }
 
 } // namespace
