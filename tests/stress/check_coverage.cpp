@@ -7,8 +7,10 @@
 #include "stress/program.h"
 #include "support/device.h"
 #include "support/scenes.h"
+#include "zvo/error.h"
 
 #include <CLI/CLI.hpp>
+
 #include <fmt/format.h>
 
 #include <chrono>
@@ -66,10 +68,22 @@ void runBatch(vk::HeadlessDevice& device, const Options& options, Shape shape, s
     const Batch batch = makeBatch(options.seed, shape, number, count_max);
     for (std::size_t i = 0; i < kCoverages.size(); ++i)
     {
-        const Tally tally = compareBatch(device, batch, kCoverages[i]);
+        const auto name = [&]
+        {
+            return fmt::format("--seed {} --shape {} --batch {}, {}", options.seed, nameOf(shape), number,
+                               nameOf(kCoverages[i]));
+        };
+        Tally tally;
+        try
+        {
+            tally = compareBatch(device, batch, kCoverages[i]);
+        }
+        catch (const Error& error)
+        {
+            throw Error(error.code(), fmt::format("{}: {}", name(), error.what()));
+        }
         if (tally.differences != 0)
-            fmt::print(stderr, "{} differences: --seed {} --shape {} --batch {}, {}\n", tally.differences, options.seed,
-                       nameOf(shape), number, nameOf(kCoverages[i]));
+            fmt::print(stderr, "{} differences: {}\n", tally.differences, name());
         for (const std::string& finding : tally.findings)
             fmt::print(stderr, "  {}\n", finding);
         tallies[static_cast<std::size_t>(shape)][i].add(tally);

@@ -201,9 +201,14 @@ std::vector<Color> tagColors(std::size_t count)
 VoxelizeCapacities roomFor(const Batch& batch, const ExpectedVoxels& expected)
 {
     VoxelizeCapacities capacities;
-    const std::uint64_t entries = std::min<std::uint64_t>(expected.codes.size() * 2, std::uint64_t{1} << 27);
-    capacities.table = std::bit_ceil(std::max<std::uint64_t>(entries, 64));
-    capacities.bricks = capacities.table / 2;
+    constexpr std::uint32_t kBrickBits = 12; // of a code: which of a brick's 16^3 cells
+    std::uint64_t bricks = 1;
+    for (std::size_t i = 1; i < expected.codes.size(); ++i) // in Morton order
+    {
+        bricks += expected.codes[i] >> kBrickBits != expected.codes[i - 1] >> kBrickBits ? 1 : 0;
+    }
+    capacities.bricks = 2 * bricks; // some turn out empty
+    capacities.table = std::bit_ceil(std::max<std::uint64_t>(2 * capacities.bricks, 64));
     capacities.setups = batch.triangles.size();
     capacities.items = batch.triangles.size() + expected.codes.size();
     capacities.large = batch.triangles.size();
